@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+namespace dstylize {
+
+/// One independent random stream per purpose, so that adding a stage never reshuffles another.
+enum class Purpose : std::uint32_t { white_noise, smooth_noise, swirl, endpoints, leaves, paper, jitter };
+
+/// Counter-based noise (Philox 4x32-10, Salmon et al. 2011): a value depends on (seed, purpose,
+/// index) alone, never on the order of calls or on threads.
+class Noise {
+  public:
+    constexpr Noise(std::uint64_t seed, Purpose purpose, std::uint32_t substream = 0)
+        : key_{std::uint32_t(seed), std::uint32_t(seed >> 32)}, purpose_(std::uint32_t(purpose)), sub_(substream) {}
+
+    /// 32 random bits for `index`.
+    constexpr std::uint32_t bits(std::uint64_t index) const { return block(index)[0]; }
+    /// Uniform in [0, 1), exact in a float's 24 bits.
+    constexpr float unit(std::uint64_t index) const { return float(bits(index) >> 8) * 0x1p-24f; }
+
+  private:
+    constexpr std::array<std::uint32_t, 4> block(std::uint64_t index) const {
+        std::array<std::uint32_t, 4> c{std::uint32_t(index), std::uint32_t(index >> 32), purpose_, sub_};
+        std::array<std::uint32_t, 2> k = key_;
+        for (int round = 0; round < 10; ++round) {
+            const std::uint64_t p0 = 0xD2511F53ull * c[0], p1 = 0xCD9E8D57ull * c[2];
+            c = {std::uint32_t(p1 >> 32) ^ c[1] ^ k[0], std::uint32_t(p1), std::uint32_t(p0 >> 32) ^ c[3] ^ k[1],
+                 std::uint32_t(p0)};
+            k[0] += 0x9E3779B9u;
+            k[1] += 0xBB67AE85u;
+        }
+        return c;
+    }
+    std::array<std::uint32_t, 2> key_;
+    std::uint32_t purpose_, sub_;
+};
+
+}  // namespace dstylize

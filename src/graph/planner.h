@@ -1,0 +1,64 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/work.h"
+#include "graph/weighted_lattice.h"
+
+namespace dstylize {
+
+/// The metrics by which paths are compared; metrics.def lists them, docs/method.md has their laws.
+enum class Metric : std::uint8_t {
+#define DSTYLIZE_METRIC(identifier, name) identifier,
+#include "graph/metrics.def"
+#undef DSTYLIZE_METRIC
+};
+std::span<const std::string_view> metric_names();
+
+/// A node that paths may start from, with a start label (for `sum`: a part of its distance from the
+/// root, so that later twigs leave at acute angles) and the colony it belongs to.
+struct Source {
+    NodeId node = kNoNode;
+    std::uint64_t start = 0;
+    std::uint16_t owner = 0;
+};
+
+struct PlanRequest {
+    const WeightedLattice& graph;
+    std::span<const Source> sources;  ///< a node named twice keeps its smallest start, then smallest owner
+    Metric metric = Metric::max_sum;
+    std::uint32_t blend_factor = 5000;  ///< k of `blend`: k * highest edge + sum
+};
+
+/// What it costs to reach a node, or kUnreached in `sum`.
+struct PathLabel {
+    static constexpr std::uint64_t kUnreached = std::numeric_limits<std::uint64_t>::max();
+    std::uint32_t highest = 0;       ///< highest edge of the path (0 for `sum`)
+    std::uint64_t sum = kUnreached;  ///< sum of the edge costs (for `lexicographic`: see metric docs)
+    friend bool operator==(const PathLabel&, const PathLabel&) = default;
+};
+
+/// The answer for every node: one, whatever the implementation, thread count or order of work.
+struct Plan {
+    static constexpr std::uint16_t kNoOwner = 0xffff;
+    std::vector<PathLabel> label;
+    std::vector<NodeId> parent;        ///< kNoNode at sources and at unreached nodes
+    std::vector<std::uint16_t> owner;  ///< kNoOwner where no path exists
+};
+
+/// The seat of the planners. The reference planner is the oracle of every other one.
+class Planner {
+  public:
+    virtual ~Planner() = default;
+    /// Labels, parents and owners of all nodes. Throws Error(bad_usage) when there is no source or a
+    /// source lies on an impassable node, Error(cancelled).
+    virtual Plan plan(const PlanRequest& request, const Work& work) const = 0;
+};
+
+/// A binary heap and one loop, written to be read: O(n log n).
+const Planner& reference_planner();
+
+}  // namespace dstylize

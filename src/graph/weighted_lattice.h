@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace dstylize {
+
+/// A node's integer weight. 0: impassable, nothing may grow there. Styles use 1..255 levels by
+/// default, at most 1..65535. *Important = cheap.*
+using NodeWeight = std::uint16_t;
+inline constexpr NodeWeight kImpassable = 0;
+
+/// What a planner walks on: a lattice whose edges get a height h and a cost c = h * length5.
+///
+/// Node weights alone: h(u, v) = w(u) + w(v) (twice the papers' edge weight, which is the mean of the
+/// two nodes); for a knight's move half the sum of the four nodes it touches (its ends and the two
+/// nodes between which it passes), rounded down. An edge with an impassable end, or a knight's move
+/// that touches an impassable node, does not exist.
+///
+/// Height planes: costs that depend on place *and* direction (flow, tropism). plane[s][u] is the height
+/// of the edge that leaves u by step s; 0 means no such edge. Symmetric planes store even steps only:
+/// the height of step s ^ 1 from v is that of step s from the node it leads to.
+struct WeightedLattice {
+    Lattice lattice;
+    std::vector<NodeWeight> weight;                        ///< one per node
+    std::vector<std::vector<std::uint16_t>> height_plane;  ///< empty, or one per stored step
+    bool symmetric = true;                                 ///< planes: half of the steps are stored
+
+    bool passable(NodeId n) const { return weight[index(n)] != kImpassable; }
+    /// Height of the edge that leaves `from` by step number `step`; 0 when there is none.
+    std::uint32_t height(NodeId from, int step) const;
+    /// The node that step number `step` leads to, or kNoNode outside the lattice.
+    NodeId neighbour(NodeId from, int step) const;
+};
+
+}  // namespace dstylize
