@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "imaging/filters.h"
@@ -44,6 +45,21 @@ std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const 
     return out;
 }
 
+/// Share of every lattice cell that the strokes ink.
+Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
+    DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
+    Layer layer{"ink", Blend::max, {}};
+    for (VariableStroke& stroke : strokes_lattice) {
+        stroke.colour = {0, 0, 0, 1};
+        layer.items.push_back(std::move(stroke));
+    }
+    list.layers.push_back(std::move(layer));
+    const Picture black_on_white = raster(list, {lattice}, work);
+    Grid<float> out(lattice);
+    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(), [](Rgba8 p) { return 1 - float(p.r) / 255; });
+    return out;
+}
+
 /// Draws, compares the ink with the wanted tone, corrects, as often as the style says.
 void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, const Dendrite& dendrite,
               const Branching& b, float u, const Work& work) {
@@ -51,7 +67,7 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
     const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
     for (int pass = 0; pass < passes; ++pass) {
         work.check();
-        const Grid<float> ink = ink_coverage(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent());
+        const Grid<float> ink = drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
         widths.correct(target, blurred(ink, kDrawnWindow_u * u));
     }
 }
