@@ -20,11 +20,16 @@ std::span<const std::string_view> metric_names();
 
 /// A node that paths may start from, with a start label (for `sum`: a part of its distance from the
 /// root, so that later twigs leave at acute angles) and the colony it belongs to.
+/// A source's label is (0, start). `sum` and `blend` may reach it strictly cheaper from another source:
+/// then it is a node like any other, with a parent and the other's owner. `max-sum` and
+/// `lexicographic` cannot, as every edge is higher than 0.
 struct Source {
     NodeId node = kNoNode;
-    std::uint64_t start = 0;
-    std::uint16_t owner = 0;
+    std::uint64_t start = 0;  ///< at most kLargestStart
+    std::uint16_t owner = 0;  ///< not Plan::kNoOwner
 };
+
+inline constexpr std::uint64_t kLargestStart = std::uint64_t{1} << 62;
 
 struct PlanRequest {
     const WeightedLattice& graph;
@@ -33,15 +38,19 @@ struct PlanRequest {
     std::uint32_t blend_factor = 5000;  ///< k of `blend`: k * highest edge + sum
 };
 
-/// What it costs to reach a node, or kUnreached in `sum`.
+/// What it costs to reach a node by its tree path, or kUnreached in `sum`. For `lexicographic` the two
+/// describe that path, but it is not by them that paths were compared.
 struct PathLabel {
     static constexpr std::uint64_t kUnreached = std::numeric_limits<std::uint64_t>::max();
     std::uint32_t highest = 0;       ///< highest edge of the path (0 for `sum`)
-    std::uint64_t sum = kUnreached;  ///< sum of the edge costs (for `lexicographic`: see metric docs)
+    std::uint64_t sum = kUnreached;  ///< start label of its source + sum of the edge costs
     friend bool operator==(const PathLabel&, const PathLabel&) = default;
 };
 
 /// The answer for every node: one, whatever the implementation, thread count or order of work.
+/// A node's parent is, among the neighbours that give it its label, the one with the smallest label,
+/// then the smallest index; for `lexicographic` the neighbour in the minimum spanning forest under the
+/// order (height, smaller node index, larger node index) of edges. Its owner is its parent's owner.
 struct Plan {
     static constexpr std::uint16_t kNoOwner = 0xffff;
     std::vector<PathLabel> label;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +12,17 @@ namespace dstylize {
 using NodeWeight = std::uint16_t;
 inline constexpr NodeWeight kImpassable = 0;
 
+/// From one node to another of the lattice.
+struct Offset {
+    int dx = 0, dy = 0;
+};
+constexpr bool is_knights_move(Step s) { return s.dx * s.dx + s.dy * s.dy == 5; }
+/// The two nodes between which a knight's move passes, seen from the node it leaves.
+constexpr std::array<Offset, 2> passed_between(Step s) {
+    if (s.dx * s.dx == 4) return {{{s.dx / 2, 0}, {s.dx / 2, s.dy}}};
+    return {{{0, s.dy / 2}, {s.dx, s.dy / 2}}};
+}
+
 /// What a planner walks on: a lattice whose edges get a height h and a cost c = h * length5.
 ///
 /// Node weights alone: h(u, v) = w(u) + w(v) (twice the papers' edge weight, which is the mean of the
@@ -20,7 +32,8 @@ inline constexpr NodeWeight kImpassable = 0;
 ///
 /// Height planes: costs that depend on place *and* direction (flow, tropism). plane[s][u] is the height
 /// of the edge that leaves u by step s; 0 means no such edge. Symmetric planes store even steps only:
-/// the height of step s ^ 1 from v is that of step s from the node it leads to.
+/// the height of step s ^ 1 from v is that of step s from the node it leads to. Planes alone say which
+/// edges exist; `weight` then only says on which nodes a source may lie. height_planes.h builds them.
 struct WeightedLattice {
     Lattice lattice;
     std::vector<NodeWeight> weight;                        ///< one per node

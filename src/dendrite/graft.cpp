@@ -1,0 +1,67 @@
+#include "dendrite/graft.h"
+
+#include <cmath>
+
+#include "core/branching.h"
+
+namespace dstylize {
+
+Growth::Growth(const Lattice& lattice) : lattice_(lattice), index_of_(lattice.node_count(), kAbsent) {}
+
+void Growth::add_root(NodeId node, std::uint16_t owner) {
+    if (contains(node)) return;
+    index_of_[index(node)] = dendrite_.add(node, lattice_.position_lattice(node), Dendrite::kRoot, owner, 0);
+}
+
+std::size_t Growth::graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage) {
+    std::size_t unreached = 0;
+    std::vector<NodeId> path;
+    for (const NodeId endpoint : endpoints) {
+        if (plan.label[index(endpoint)].sum == PathLabel::kUnreached) {
+            ++unreached;
+            continue;
+        }
+        path.clear();
+        NodeId at = endpoint;
+        for (; !contains(at); at = plan.parent[index(at)]) path.push_back(at);
+        std::uint32_t parent = index_of_[index(at)];
+        for (auto node = path.rbegin(); node != path.rend(); ++node) {
+            parent = dendrite_.add(*node, lattice_.position_lattice(*node), parent, dendrite_.owner[parent], stage);
+            index_of_[index(*node)] = parent;
+        }
+    }
+    return unreached;
+}
+
+std::vector<Source> Growth::sources(double carry, double cost_per_step) const {
+    std::vector<Source> out(dendrite_.size());
+    std::vector<double> arc(dendrite_.size(), 0);
+    for (std::uint32_t v = 0; v < out.size(); ++v) {
+        if (!dendrite_.is_root(v)) {
+            const std::uint32_t p = dendrite_.parent[v];
+            arc[v] = arc[p] + double(distance(dendrite_.position_lattice[v], dendrite_.position_lattice[p]));
+        }
+        out[v] = {dendrite_.node[v], std::uint64_t(std::llround(carry * arc[v] * cost_per_step)), dendrite_.owner[v]};
+    }
+    return out;
+}
+
+Dendrite without_spurs(const Dendrite& d, float least_length) {
+    const Branching b = branching(d);
+    std::vector<bool> spur(d.size(), false);
+    std::vector<std::uint32_t> kept_as(d.size(), Dendrite::kRoot);
+    Dendrite out;
+    for (std::uint32_t v = 0; v < d.size(); ++v) {
+        if (!d.is_root(v)) {
+            const std::uint32_t p = d.parent[v];
+            const float reach = b.height[v] + distance(d.position_lattice[v], d.position_lattice[p]);
+            spur[v] = spur[p] || (b.main_child[p] != v && reach < least_length);
+        }
+        if (spur[v]) continue;
+        const std::uint32_t parent = d.is_root(v) ? Dendrite::kRoot : kept_as[d.parent[v]];
+        kept_as[v] = out.add(d.node[v], d.position_lattice[v], parent, d.owner[v], d.stage[v]);
+    }
+    return out;
+}
+
+}  // namespace dstylize

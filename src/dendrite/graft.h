@@ -1,0 +1,40 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "core/dendrite.h"
+#include "graph/planner.h"
+
+namespace dstylize {
+
+/// A dendrite that grows on a lattice, one stage after the other.
+class Growth {
+  public:
+    explicit Growth(const Lattice& lattice);
+
+    const Dendrite& dendrite() const { return dendrite_; }
+    bool contains(NodeId node) const { return index_of_[index(node)] != kAbsent; }
+
+    /// A new root at `node`; nothing when the node is already taken.
+    void add_root(NodeId node, std::uint16_t owner);
+
+    /// Joins the paths back from the endpoints to the dendrite: each is followed until it meets a node
+    /// that is already in it. Endpoints without a path are left out; returns how many were.
+    /// Precondition: the plan's sources are nodes of the dendrite.
+    std::size_t graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage);
+
+    /// Every node of the dendrite as a source. `carry` in [0, 1] makes a later stage remember its way:
+    /// a node starts at carry * (arc length to its root) * cost_per_step.
+    std::vector<Source> sources(double carry, double cost_per_step) const;
+
+  private:
+    static constexpr std::uint32_t kAbsent = 0xffffffffu;
+    Lattice lattice_;
+    Dendrite dendrite_;
+    std::vector<std::uint32_t> index_of_;  // by lattice node
+};
+
+/// Without side branches shorter than `least_length` (lattice steps) that hang on a longer branch.
+Dendrite without_spurs(const Dendrite& dendrite, float least_length);
+
+}  // namespace dstylize

@@ -1,0 +1,118 @@
+#include "imaging/filters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace dstylize {
+namespace {
+
+cv::Mat mat(const Grid<float>& g) {
+    return cv::Mat(g.extent().y, g.extent().x, CV_32F, const_cast<float*>(g.data()));
+}
+Grid<float> like(const Grid<float>& g) { return Grid<float>(g.extent()); }
+
+/// The picture seen as a float plane computed pixel by pixel, then brought to the lattice.
+template <class PixelValue>
+Grid<float> plane_on_lattice(const Picture& picture, Extent lattice, PixelValue value) {
+    Grid<float> full(picture.extent());
+    std::transform(picture.begin(), picture.end(), full.begin(), value);
+    if (full.extent() == lattice) return full;
+    Grid<float> out = resized(full, lattice);
+    transform(out, [](float v) { return std::clamp(v, 0.0f, 1.0f); });
+    return out;
+}
+
+constexpr int kBins = 65536;
+struct Histogram {
+    float lo = 0, scale = 0;
+    std::vector<std::uint32_t> count = std::vector<std::uint32_t>(kBins, 0);
+    int bin(float v) const { return std::min(kBins - 1, int((v - lo) * scale)); }
+};
+Histogram histogram(const Grid<float>& field) {
+    Histogram h;
+    const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
+    h.lo = *lo;
+    h.scale = *hi > *lo ? float(kBins) / (*hi - *lo) : 0;
+    for (float v : field) ++h.count[std::size_t(h.bin(v))];
+    return h;
+}
+
+}  // namespace
+
+Grid<float> resized(const Grid<float>& field, Extent extent) {
+    Grid<float> out(extent);
+    cv::Mat target = mat(out);
+    const bool grows = extent.x > field.extent().x || extent.y > field.extent().y;
+    cv::resize(mat(field), target, target.size(), 0, 0, grows ? cv::INTER_CUBIC : cv::INTER_AREA);
+    return out;
+}
+
+Grid<float> blurred(const Grid<float>& field, float sigma) {
+    Grid<float> out = like(field);
+    cv::Mat target = mat(out);
+    constexpr float kWide = 8, kReducedSigma = 4;
+    if (sigma <= kWide) {
+        cv::GaussianBlur(mat(field), target, cv::Size(0, 0), sigma, sigma, cv::BORDER_REFLECT);
+        return out;
+    }
+    const float factor = sigma / kReducedSigma;
+    cv::Mat small;
+    const cv::Size size(std::max(1, cvRound(float(field.extent().x) / factor)),
+                        std::max(1, cvRound(float(field.extent().y) / factor)));
+    cv::resize(mat(field), small, size, 0, 0, cv::INTER_AREA);
+    cv::GaussianBlur(small, small, cv::Size(0, 0), kReducedSigma, kReducedSigma, cv::BORDER_REFLECT);
+    cv::resize(small, target, target.size(), 0, 0, cv::INTER_LINEAR);
+    return out;
+}
+
+Derivatives derivatives(const Grid<float>& field) {
+    Derivatives d{like(field), like(field)};
+    cv::Mat x = mat(d.x), y = mat(d.y);
+    cv::Sobel(mat(field), x, CV_32F, 1, 0, 3, 0.125, 0, cv::BORDER_REFLECT);
+    cv::Sobel(mat(field), y, CV_32F, 0, 1, 3, 0.125, 0, cv::BORDER_REFLECT);
+    return d;
+}
+
+Grid<float> gradient_magnitude(const Grid<float>& field) {
+    Derivatives d = derivatives(field);
+    for (std::size_t n = 0; n < d.x.size(); ++n) d.x[n] = std::sqrt(d.x[n] * d.x[n] + d.y[n] * d.y[n]);
+    return std::move(d.x);
+}
+
+float percentile(const Grid<float>& field, float percent) {
+    const Histogram h = histogram(field);
+    if (h.scale == 0) return h.lo;
+    const auto wanted = std::uint64_t(double(percent) / 100 * double(field.size()));
+    std::uint64_t seen = 0;
+    for (int b = 0; b < kBins; ++b) {
+        seen += h.count[std::size_t(b)];
+        if (seen > wanted) return h.lo + (float(b) + 0.5f) / h.scale;
+    }
+    return h.lo + float(kBins) / h.scale;
+}
+
+Grid<float> rank(const Grid<float>& field) {
+    Histogram h = histogram(field);
+    std::uint32_t below = 0;
+    for (auto& c : h.count) below += std::exchange(c, below);
+    Grid<float> out = like(field);
+    for (std::size_t n = 0; n < field.size(); ++n)
+        out[n] = float(h.count[std::size_t(h.bin(field[n]))]) / float(field.size());
+    return out;
+}
+
+Grid<float> luma_on_lattice(const Picture& picture, Extent lattice) {
+    return plane_on_lattice(picture, lattice, [](Rgba8 p) {
+        const float a = float(p.a) / 255, y = luma({p.r / 255.0f, p.g / 255.0f, p.b / 255.0f, 1});
+        return 1 - a * (1 - y);
+    });
+}
+
+Grid<float> alpha_on_lattice(const Picture& picture, Extent lattice) {
+    return plane_on_lattice(picture, lattice, [](Rgba8 p) { return float(p.a) / 255; });
+}
+
+}  // namespace dstylize

@@ -1,0 +1,36 @@
+#pragma once
+#include "core/grid.h"
+#include "core/picture.h"
+
+namespace dstylize {
+
+/// The few image filters that fields are built of; sigmas are in nodes. Borders reflect.
+
+/// Gaussian blur. Wide ones (sigma above 8) are made on a reduced copy: same result to about 1 %.
+Grid<float> blurred(const Grid<float>& field, float sigma);
+/// Magnitude of the Sobel gradient, per node.
+Grid<float> gradient_magnitude(const Grid<float>& field);
+/// Sobel derivatives, per node.
+struct Derivatives {
+    Grid<float> x, y;
+};
+Derivatives derivatives(const Grid<float>& field);
+/// The value below which `percent` of the samples lie, to 1/65536 of their range.
+float percentile(const Grid<float>& field, float percent);
+/// Every sample replaced by the share of samples that are smaller, in [0, 1).
+Grid<float> rank(const Grid<float>& field);
+/// `field` at another extent: area average when it shrinks, cubic when it grows.
+Grid<float> resized(const Grid<float>& field, Extent extent);
+
+/// Luma of the sRGB values over white, in [0, 1], at the lattice's extent.
+Grid<float> luma_on_lattice(const Picture& picture, Extent lattice);
+/// Mean alpha in [0, 1] at the lattice's extent.
+Grid<float> alpha_on_lattice(const Picture& picture, Extent lattice);
+
+/// Applies `f` to every sample in place.
+template <class F>
+void transform(Grid<float>& field, F f) {
+    for (float& v : field) v = f(v);
+}
+
+}  // namespace dstylize

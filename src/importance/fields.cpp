@@ -1,0 +1,90 @@
+#include "importance/fields.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "importance/detail_field_functions.h"
+
+namespace dstylize {
+namespace {
+
+struct Row {
+    std::string_view name;
+    Grid<float> (*function)(Fields&);
+    std::string_view meaning;
+};
+constexpr Row kRows[] = {
+#define DSTYLIZE_FIELD(name, function, meaning) {name, &field::function, meaning},
+#include "importance/fields.def"
+#undef DSTYLIZE_FIELD
+};
+constexpr auto kNames = [] {
+    std::array<std::string_view, std::size(kRows)> names{};
+    for (std::size_t i = 0; i < names.size(); ++i) names[i] = kRows[i].name;
+    return names;
+}();
+
+std::size_t row_of(std::string_view name) {
+    const auto at = std::find(kNames.begin(), kNames.end(), name);
+    if (at == kNames.end())
+        throw Error(ErrorCode::bad_usage, "", "no field is called '" + std::string(name) + "'",
+                    "`dstylize styles --fields` lists them");
+    return std::size_t(at - kNames.begin());
+}
+
+}  // namespace
+
+Fields::Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed)
+    : luma_(std::move(luma)), parameters_(parameters), maps_(std::move(maps)), seed_(seed) {}
+
+std::span<const std::string_view> Fields::names() { return kNames; }
+std::string_view Fields::meaning(std::string_view name) { return kRows[row_of(name)].meaning; }
+
+const Grid<float>& Fields::operator[](std::string_view name) {
+    const std::size_t row = row_of(name);
+    if (!cache_[row]) cache_[row] = kRows[row].function(*this);
+    return *cache_[row];
+}
+
+const FlowField& Fields::flow() {
+    if (!flow_) flow_ = field::flow(*this);
+    return *flow_;
+}
+
+void FieldParameters::visit(ParameterVisitor& v) {
+    v.number({"stretch_low", "%", "luma percentile that becomes black"}, stretch_low, 0, 49);
+    v.number({"stretch_high", "%", "luma percentile that becomes white"}, stretch_high, 51, 100);
+    v.flag({"bright", "", "draw the light parts instead of the dark ones"}, bright);
+    v.number({"tone_equalise", "", "share of histogram equalisation in the tone"}, tone_equalise, 0, 1);
+    v.number({"tone_white", "", "tone at and below this stays paper"}, tone_white, 0, 0.5f);
+    v.number({"tone_black", "", "tone at and above this is fully inked"}, tone_black, 0.5f, 1);
+    v.number({"gradient_scale", "u", "blur before the fine gradient"}, gradient_scale, 0.3f, 20);
+    v.number({"gradient_wide_scale", "u", "blur before the wide gradient"}, gradient_wide_scale, 0.3f, 40);
+    v.number({"gradient_wide_share", "", "weight of the wide gradient, 0: none"}, gradient_wide_share, 0, 1);
+    v.number({"gradient_percentile", "%", "gradient percentile that counts as 1"}, gradient_percentile, 50, 100);
+    v.number({"gradient_gamma", "", "below 1 lifts weak gradients"}, gradient_gamma, 0.2f, 3);
+    v.number({"line_scale", "u", "half width of the thin lines that are looked for"}, line_scale, 0.5f, 10);
+    v.number({"importance_gradient", "", "weight of the gradient in the importance"}, importance_gradient, 0, 10);
+    v.number({"importance_tone", "", "weight of the tone in the importance"}, importance_tone, 0, 10);
+    v.number({"importance_lines", "", "weight of the lines in the importance"}, importance_lines, 0, 10);
+    v.number({"importance_percentile", "%", "percentile that counts as 1; 100: the sum as it is"},
+             importance_percentile, 50, 100);
+    v.number({"features_gradient", "", "weight of the gradient against the lines"}, features_gradient, 0, 1);
+    v.number({"features_surround", "u", "size of the surroundings that suppress textures"}, features_surround, 2, 100);
+    v.number({"features_suppress", "", "how much busy surroundings suppress a feature"}, features_suppress, 0, 1);
+    v.number({"avoid_scale", "u", "size of the bright details to keep clean"}, avoid_scale, 1, 60);
+    v.number({"avoid_level", "", "how much brighter than around a detail must be; lower keeps more clean"},
+             avoid_level, 0.3f, 1);
+    v.number({"border_width", "u", "how far inside the frame growth is discouraged"}, border_width, 1, 100);
+    v.number({"smooth_noise_scale", "u", "correlation length of the smooth noise"}, smooth_noise_scale, 0.5f, 60);
+    v.number({"flow_fine", "u", "window of the fine structure tensor"}, flow_fine, 1, 60);
+    v.number({"flow_coarse", "u", "window of the coarse structure tensor"}, flow_coarse, 2, 200);
+    v.number({"flow_coarse_share", "", "weight of the coarse tensor: carries form into flat areas"}, flow_coarse_share,
+             0, 4);
+    v.number({"flow_swirl", "", "curls in areas without direction of their own"}, flow_swirl, 0, 4);
+    v.number({"calm_scale", "u", "how far from contours calm areas stay"}, calm_scale, 5, 200);
+    v.number({"calm_detail", "", "most detail that counts as calm"}, calm_detail, 0, 1);
+    v.number({"calm_tone", "", "darkest tone that counts as calm"}, calm_tone, 0, 1);
+}
+
+}  // namespace dstylize

@@ -1,0 +1,80 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "core/grid.h"
+#include "core/parameters.h"
+#include "core/picture.h"
+#include "core/vec.h"
+
+namespace dstylize {
+
+/// How the fields are read off a picture: the [fields] table of a style. Lengths in u.
+struct FieldParameters {
+    float stretch_low = 2, stretch_high = 98;
+    bool bright = false;
+    float tone_equalise = 0.4f, tone_white = 0.12f, tone_black = 0.90f;
+    float gradient_scale = 1.2f, gradient_wide_scale = 3, gradient_wide_share = 0.8f;
+    float gradient_percentile = 97, gradient_gamma = 0.8f;
+    float line_scale = 1.5f;
+    float importance_gradient = 3, importance_tone = 1, importance_lines = 2, importance_percentile = 98.5f;
+    float features_gradient = 0.8f, features_surround = 12, features_suppress = 0.6f;
+    float avoid_scale = 6, avoid_level = 0.95f;
+    float border_width = 24;
+    float smooth_noise_scale = 3;
+    float flow_fine = 6, flow_coarse = 28, flow_coarse_share = 0.5f, flow_swirl = 0.25f;
+    float calm_scale = 45, calm_detail = 0.13f, calm_tone = 0.45f;
+
+    void visit(ParameterVisitor& visitor);
+};
+
+/// What a user gives beside the picture; each at the lattice's extent, values in [0, 1].
+struct UserMaps {
+    std::optional<Grid<float>> importance;
+    bool importance_replaces = false;  ///< else the map is multiplied in
+};
+
+/// Local orientation of the picture: a unit direction along its structures times the coherence in
+/// [0, 1] (0: no preferred direction). Sign means nothing.
+using FlowField = Grid<Vec2f>;
+
+/// Everything that a style can read off a picture, by name, computed when first asked for. One
+/// instance belongs to one thread.
+class Fields {
+  public:
+    /// `luma`: the picture's luma in [0, 1] at the lattice's extent; u is extent.long_side() / 1024 nodes.
+    Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed);
+
+    Extent extent() const { return luma_.extent(); }
+    /// Nodes per u.
+    float u() const { return float(extent().long_side()) / 1024; }
+    const FieldParameters& parameters() const { return parameters_; }
+    const UserMaps& maps() const { return maps_; }
+    std::uint64_t seed() const { return seed_; }
+
+    /// The field called `name`. Throws Error(bad_usage) naming the nearest for an unknown one.
+    const Grid<float>& operator[](std::string_view name);
+    const FlowField& flow();
+
+    static std::span<const std::string_view> names();
+    static std::string_view meaning(std::string_view name);
+
+    const Grid<float>& source_luma() const { return luma_; }
+
+  private:
+    static constexpr std::size_t kCount = 0
+#define DSTYLIZE_FIELD(name, function, meaning) +1
+#include "importance/fields.def"
+#undef DSTYLIZE_FIELD
+        ;
+    Grid<float> luma_;
+    FieldParameters parameters_;
+    UserMaps maps_;
+    std::uint64_t seed_;
+    std::array<std::optional<Grid<float>>, kCount> cache_;
+    std::optional<FlowField> flow_;
+};
+
+}  // namespace dstylize

@@ -1,0 +1,66 @@
+// Which way the picture runs: a sum of structure tensors, each divided by its own trace so that faint
+// structures steer as well as strong ones, plus curls where the picture says nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "importance/detail_field_functions.h"
+#include "imaging/filters.h"
+
+namespace dstylize::field {
+namespace {
+
+/// A symmetric 2x2 tensor per node.
+struct TensorField {
+    Grid<float> xx, xy, yy;
+};
+
+TensorField structure_tensor(const Derivatives& d) {
+    TensorField t{d.x, d.x, d.y};
+    for (std::size_t n = 0; n < d.x.size(); ++n) {
+        t.xx[n] = d.x[n] * d.x[n];
+        t.xy[n] = d.x[n] * d.y[n];
+        t.yy[n] = d.y[n] * d.y[n];
+    }
+    return t;
+}
+
+/// sum += weight * (t blurred) / max(its trace, the trace's given percentile).
+void add_normalised(TensorField& sum, const TensorField& t, float sigma, float weight, float trace_percent) {
+    const Grid<float> xx = blurred(t.xx, sigma), xy = blurred(t.xy, sigma), yy = blurred(t.yy, sigma);
+    Grid<float> trace = xx;
+    for (std::size_t n = 0; n < trace.size(); ++n) trace[n] += yy[n];
+    const float least = percentile(trace, trace_percent) + 1e-9f;
+    for (std::size_t n = 0; n < trace.size(); ++n) {
+        const float k = weight / std::max(trace[n], least);
+        sum.xx[n] += k * xx[n];
+        sum.xy[n] += k * xy[n];
+        sum.yy[n] += k * yy[n];
+    }
+}
+
+}  // namespace
+
+FlowField flow(Fields& fields) {
+    constexpr float kSwirlScale_u = 60;
+    const FieldParameters& p = fields.parameters();
+    const float u = fields.u();
+    const Grid<float> zero(fields.extent());
+    TensorField sum{zero, zero, zero};
+    const TensorField t = structure_tensor(derivatives(blurred(fields["lightness"], 1.5f * u)));
+    add_normalised(sum, t, p.flow_fine * u, 1, 60);
+    add_normalised(sum, t, p.flow_coarse * u, p.flow_coarse_share, 30);
+    if (p.flow_swirl > 0) {
+        const Grid<float> hills = correlated_noise(fields, Purpose::swirl, kSwirlScale_u / 4, kSwirlScale_u);
+        add_normalised(sum, structure_tensor(derivatives(hills)), 2 * u, p.flow_swirl, 5);
+    }
+    FlowField out(fields.extent());
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        const float difference = sum.xx[n] - sum.yy[n], cross = 2 * sum.xy[n];
+        const float coherence = std::min(1.0f, std::sqrt(difference * difference + cross * cross));
+        const float across = 0.5f * std::atan2(cross, difference);  // direction of the gradient
+        out[n] = Vec2f{-std::sin(across), std::cos(across)} * coherence;
+    }
+    return out;
+}
+
+}  // namespace dstylize::field

@@ -1,0 +1,57 @@
+// Noise fields. They live on a grid fixed to the picture, finer than most lattices, and every lattice
+// samples that one grid: half the detail is then an honest preview of the full one.
+#include <algorithm>
+#include <cmath>
+
+#include "importance/detail_field_functions.h"
+#include "imaging/filters.h"
+
+namespace dstylize::field {
+
+Grid<float> white_noise(Fields& fields) {
+    constexpr float kCells = 2048;  // along the long side
+    const Noise noise(fields.seed(), Purpose::white_noise);
+    const Extent e = fields.extent();
+    const float per_node = kCells / float(e.long_side());
+    Grid<float> out(e);
+    for (int j = 0; j < e.y; ++j)
+        for (int i = 0; i < e.x; ++i) {
+            const auto cx = std::uint64_t((float(i) + 0.5f) * per_node), cy = std::uint64_t((float(j) + 0.5f) * per_node);
+            out(i, j) = noise.unit(cy << 32 | cx);
+        }
+    return out;
+}
+
+Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u, float sigma_u) {
+    const Noise noise(fields.seed(), purpose);
+    const Extent e = fields.extent();
+    const float nodes_per_cell = cell_u * fields.u();
+    const Extent cells{int(std::ceil(float(e.x) / nodes_per_cell)) + 1, int(std::ceil(float(e.y) / nodes_per_cell)) + 1};
+    Grid<float> coarse(cells);
+    for (int j = 0; j < cells.y; ++j)
+        for (int i = 0; i < cells.x; ++i)
+            coarse(i, j) = noise.unit(std::uint64_t(j) << 32 | std::uint64_t(i)) - 0.5f;
+    coarse = blurred(coarse, sigma_u / cell_u);
+    // The blur of independent samples of variance 1/12 by a Gaussian has variance 1 / (12 * 4 pi sigma^2).
+    const float deviation = std::sqrt(1 / (12 * 4 * 3.14159265f)) / (sigma_u / cell_u);
+    Grid<float> out(e);
+    for (int j = 0; j < e.y; ++j)
+        for (int i = 0; i < e.x; ++i) {
+            const float x = (float(i) + 0.5f) / nodes_per_cell, y = (float(j) + 0.5f) / nodes_per_cell;
+            const int cx = std::min(int(x), cells.x - 2), cy = std::min(int(y), cells.y - 2);
+            const float fx = x - float(cx), fy = y - float(cy);
+            const float top = coarse(cx, cy) * (1 - fx) + coarse(cx + 1, cy) * fx;
+            const float bottom = coarse(cx, cy + 1) * (1 - fx) + coarse(cx + 1, cy + 1) * fx;
+            out(i, j) = (top * (1 - fy) + bottom * fy) / deviation;
+        }
+    return out;
+}
+
+Grid<float> smooth_noise(Fields& fields) {
+    const float sigma_u = fields.parameters().smooth_noise_scale;
+    Grid<float> out = correlated_noise(fields, Purpose::smooth_noise, sigma_u / 3, sigma_u);
+    transform(out, [](float v) { return std::clamp(0.5f + v / 4, 0.0f, 1.0f); });
+    return out;
+}
+
+}  // namespace dstylize::field

@@ -1,0 +1,43 @@
+// Fields of brightness: what is dark, and how much ink it wants.
+#include <algorithm>
+#include <cmath>
+
+#include "importance/detail_field_functions.h"
+#include "imaging/filters.h"
+
+namespace dstylize::field {
+
+Grid<float> luma(Fields& fields) { return fields.source_luma(); }
+
+Grid<float> lightness(Fields& fields) {
+    Grid<float> out = fields.source_luma();
+    const float lo = percentile(out, fields.parameters().stretch_low);
+    const float hi = percentile(out, fields.parameters().stretch_high);
+    // A picture of one colour has nothing to stretch.
+    if (hi - lo < 1e-4f) return out;
+    transform(out, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+    return out;
+}
+
+Grid<float> darkness(Fields& fields) {
+    Grid<float> out = fields["lightness"];
+    transform(out, [](float v) { return 1 - v; });
+    return out;
+}
+
+Grid<float> tone(Fields& fields) {
+    const FieldParameters& p = fields.parameters();
+    Grid<float> out = fields[p.bright ? "lightness" : "darkness"];
+    const float equalise = p.tone_equalise;
+    if (equalise > 0) {
+        const Grid<float> ranks = rank(out);
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] = (1 - equalise) * out[n] + equalise * ranks[n];
+    }
+    // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
+    transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
+    if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] *= (*map)[n];
+    return out;
+}
+
+}  // namespace dstylize::field

@@ -1,0 +1,37 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "core/display_list.h"
+#include "core/grid.h"
+#include "core/parameters.h"
+
+namespace dstylize {
+
+/// What a metaphor may look at. It changes nothing.
+struct Subject {
+    float width_px = 0, height_px = 0;  ///< the picture frame
+    float u_px = 1;                     ///< 1/1024 of its long side
+    float px_per_node = 1;              ///< scale of the fields
+    std::span<const VariableStroke> strokes;  ///< centrelines and widths; parents before children
+    /// A field of the picture by name, on the lattice.
+    std::function<const Grid<float>&(std::string_view)> field;
+    std::uint64_t seed = 0;
+};
+
+/// How a dendrite is dressed: ink, vine, later lightning, lichen, bark. Its parameters are the table
+/// of its own name in a style file. It knows nothing of planning.
+class Metaphor {
+  public:
+    virtual ~Metaphor() = default;
+    virtual void visit(ParameterVisitor& visitor) = 0;
+    virtual DisplayList draw(const Subject& subject) const = 0;
+};
+
+/// Throws Error(bad_usage) for an unknown name, listing the known ones.
+std::unique_ptr<Metaphor> make_metaphor(std::string_view name);
+std::span<const std::string_view> metaphor_names();
+
+}  // namespace dstylize

@@ -1,0 +1,148 @@
+#include "render/detail_prepare.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/detail_capsule.h"
+
+namespace dstylize {
+namespace {
+
+constexpr int kTileSamples = 128;
+constexpr int kMostSamplesPerPixel = 8;
+/// Samples across the mean stroke: below three, the gaps between strokes, which are about as wide as
+/// the strokes, would be judged by single samples, of which `max` keeps only one stroke's share.
+constexpr double kSamplesPerWidth = 3;
+constexpr double kMostSamples = 128e6;
+constexpr float kFlatness = 0.05f;  // samples
+/// A run may hold this many segments that miss the tile before a new run is cheaper.
+constexpr std::uint32_t kRunGap = 8;
+
+struct Scale {
+    float x, y, width;
+};
+
+double mean_stroke_width(const DisplayList& list) {
+    double area = 0, total = 0;
+    for (const Layer& layer : list.layers)
+        for (const Item& item : layer.items)
+            if (const auto* stroke = std::get_if<VariableStroke>(&item))
+                for (std::size_t i = 0; i + 1 < stroke->points_px.size(); ++i) {
+                    const double run = distance(stroke->points_px[i], stroke->points_px[i + 1]);
+                    area += run * 0.5 * (stroke->width_px[i] + stroke->width_px[i + 1]);
+                    total += run;
+                }
+    return total > 0 ? area / total : 0;
+}
+
+int samples_per_pixel(const DisplayList& list, Extent size_px, double scale) {
+    const double width = mean_stroke_width(list) * scale;
+    int wanted = 2;
+    if (width > 0) wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), 1.0, double(kMostSamplesPerPixel)));
+    while (wanted > 2 && double(size_px.count()) * wanted * wanted > kMostSamples) --wanted;
+    return wanted;
+}
+
+PreparedItem prepared_item(const Item& item, std::uint32_t layer, Scale scale) {
+    PreparedItem out;
+    out.layer = layer;
+    auto scaled = [&](Vec2f p) { return Vec2f{p.x * scale.x, p.y * scale.y}; };
+    if (const auto* fill = std::get_if<Fill>(&item)) {
+        out.colour = fill->colour;
+        for (Vec2f p : fill->outline_px) out.outline.push_back(scaled(p));
+        return out;
+    }
+    const auto& stroke = std::get<VariableStroke>(item);
+    out.colour = stroke.colour;
+    std::vector<Vec2f> points;
+    std::vector<float> widths;
+    points.reserve(stroke.points_px.size());
+    widths.reserve(stroke.points_px.size());
+    for (std::size_t i = 0; i < stroke.points_px.size(); ++i) {
+        points.push_back(scaled(stroke.points_px[i]));
+        widths.push_back(stroke.width_px[i] * scale.width);
+    }
+    out.line = simplified(smooth_line(points, widths, kFlatness), kFlatness);
+    straighten_thin_ends(out.line);
+    return out;
+}
+
+/// Collects the runs of each tile, item after item.
+class Binner {
+  public:
+    explicit Binner(Prepared& target)
+        : target_(target), tile_samples_(float(target.tile_px * target.samples_per_pixel)) {
+        target_.runs.resize(target_.tiles.count());
+    }
+
+    void add(std::uint32_t item) {
+        const PreparedItem& it = target_.items[item];
+        if (it.colour.a <= 0) return;
+        if (!it.outline.empty()) {
+            Vec2f lo = it.outline[0], hi = lo;
+            for (Vec2f p : it.outline) {
+                lo = {std::min(lo.x, p.x), std::min(lo.y, p.y)};
+                hi = {std::max(hi.x, p.x), std::max(hi.y, p.y)};
+            }
+            add_box(lo, hi, {item, 0, 0});
+        }
+        const std::size_t segments = std::max<std::size_t>(it.line.size(), 2) - 1;
+        for (std::size_t i = 0; i < segments && !it.line.empty(); ++i) {
+            const WidthPoint &a = it.line[i], &b = it.line[std::min(i + 1, it.line.size() - 1)];
+            const float reach = 0.5f * std::max(a.width, b.width) + 1;
+            if (a.width <= 0 && b.width <= 0) continue;
+            add_box({std::min(a.at.x, b.at.x) - reach, std::min(a.at.y, b.at.y) - reach},
+                    {std::max(a.at.x, b.at.x) + reach, std::max(a.at.y, b.at.y) + reach},
+                    {item, std::uint32_t(i), std::uint32_t(i)});
+        }
+    }
+
+  private:
+    void add_box(Vec2f lo, Vec2f hi, Run run) {
+        const int x0 = tile(lo.x, target_.tiles.x), x1 = tile(hi.x, target_.tiles.x);
+        const int y0 = tile(lo.y, target_.tiles.y), y1 = tile(hi.y, target_.tiles.y);
+        for (int y = std::max(y0, 0); y <= std::min(y1, target_.tiles.y - 1); ++y)
+            for (int x = std::max(x0, 0); x <= std::min(x1, target_.tiles.x - 1); ++x)
+                extend(target_.runs[std::size_t(y) * std::size_t(target_.tiles.x) + std::size_t(x)], run);
+    }
+    /// Tile index of a coordinate; -1 before the first, `count` after the last.
+    int tile(float at, int count) const { return int(std::clamp(std::floor(at / tile_samples_), -1.0f, float(count))); }
+    static void extend(std::vector<Run>& runs, Run run) {
+        if (!runs.empty() && runs.back().item == run.item && run.first <= runs.back().last + kRunGap)
+            runs.back().last = run.last;
+        else
+            runs.push_back(run);
+    }
+
+    Prepared& target_;
+    float tile_samples_;
+};
+
+}  // namespace
+
+Prepared prepared(const DisplayList& list, Extent size_px, const Work& work) {
+    const double scale_x = size_px.x / double(list.width_px), scale_y = size_px.y / double(list.height_px);
+    const double scale_width = std::sqrt(scale_x * scale_y);
+    Prepared out;
+    out.samples_per_pixel = samples_per_pixel(list, size_px, scale_width);
+    out.tile_px = kTileSamples / out.samples_per_pixel;
+    out.tiles = {(size_px.x + out.tile_px - 1) / out.tile_px, (size_px.y + out.tile_px - 1) / out.tile_px};
+    const Scale scale{float(scale_x * out.samples_per_pixel), float(scale_y * out.samples_per_pixel),
+                      float(scale_width * out.samples_per_pixel)};
+
+    std::vector<std::pair<const Item*, std::uint32_t>> sources;
+    for (std::size_t l = 0; l < list.layers.size(); ++l)
+        for (const Item& item : list.layers[l].items) sources.emplace_back(&item, std::uint32_t(l));
+    out.items.resize(sources.size());
+    tbb::parallel_for(std::size_t(0), sources.size(), [&](std::size_t i) {
+        out.items[i] = prepared_item(*sources[i].first, sources[i].second, scale);
+    });
+    work.check();
+    Binner binner(out);
+    for (std::size_t i = 0; i < out.items.size(); ++i) binner.add(std::uint32_t(i));
+    return out;
+}
+
+}  // namespace dstylize

@@ -1,0 +1,37 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/display_list.h"
+#include "core/grid.h"
+#include "core/work.h"
+#include "geometry/tapered_line.h"
+
+namespace dstylize {
+
+/// One item in the raster's sample frame; a stroke has a line, a fill an outline.
+struct PreparedItem {
+    TaperedLine line;
+    std::vector<Vec2f> outline;
+    Rgba colour;
+    std::uint32_t layer = 0;
+};
+
+/// Consecutive segments of an item that a tile has to look at; a fill has one run of one segment.
+struct Run {
+    std::uint32_t item = 0, first = 0, last = 0;
+};
+
+/// The display list made ready for tiles.
+struct Prepared {
+    int samples_per_pixel = 1;  ///< along each axis
+    int tile_px = 0;            ///< side of a tile; the last ones are cut
+    Extent tiles;
+    std::vector<PreparedItem> items;     ///< in painting order, layer after layer
+    std::vector<std::vector<Run>> runs;  ///< per tile, in painting order
+};
+
+/// Flattens, scales and bins the list for an output of the given size. O(points + tiles touched).
+Prepared prepared(const DisplayList& list, Extent size_px, const Work& work);
+
+}  // namespace dstylize

@@ -1,0 +1,149 @@
+// Tiles of samples: each layer's coverage is collected in one plane, composited onto premultiplied
+// colour, averaged to pixels and laid on the paper. A tile depends on nothing but the list.
+#include "render/raster.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "render/detail_capsule.h"
+#include "render/detail_grain.h"
+#include "render/detail_polygon.h"
+#include "render/detail_prepare.h"
+
+namespace dstylize {
+namespace {
+
+struct Premultiplied {
+    float r = 0, g = 0, b = 0, a = 0;
+};
+
+std::uint8_t byte(float v) { return std::uint8_t(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f); }
+
+Rgba8 straight(Premultiplied c) {
+    if (c.a <= 0) return {0, 0, 0, 0};
+    const float k = 1 / c.a;
+    return {byte(c.r * k), byte(c.g * k), byte(c.b * k), byte(c.a)};
+}
+
+/// One thread's working memory and the painting of a tile in it.
+class TilePainter {
+  public:
+    TilePainter(const DisplayList& list, const Prepared& drawing, Picture& out)
+        : list_(list), drawing_(drawing), out_(out), grain_(list.paper.seed) {}
+
+    void paint(int tile_x, int tile_y) {
+        const int side = drawing_.tile_px, k = drawing_.samples_per_pixel;
+        x0_ = tile_x * side;
+        y0_ = tile_y * side;
+        width_ = std::min(side, out_.extent().x - x0_);
+        height_ = std::min(side, out_.extent().y - y0_);
+        const std::size_t samples = std::size_t(width_ * k) * std::size_t(height_ * k);
+        plane_.width = width_ * k;
+        plane_.height = height_ * k;
+        plane_.origin = {float(x0_ * k), float(y0_ * k)};
+        plane_.coverage.assign(samples, 0.0f);
+        plane_.item.resize(samples);
+        plane_.dirty = {};
+        ink_.assign(samples, {});
+        paint_items(drawing_.runs[std::size_t(tile_y) * std::size_t(drawing_.tiles.x) + std::size_t(tile_x)]);
+        lay_on_paper();
+    }
+
+  private:
+    void paint_items(const std::vector<Run>& runs) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const PreparedItem& item = drawing_.items[runs[i].item];
+            if (item.outline.empty())
+                paint_segments(plane_, item.line, runs[i].first, runs[i].last, runs[i].item);
+            else
+                paint_polygon(plane_, item.outline, runs[i].item, scratch_);
+            const bool merges_with_next =
+                i + 1 < runs.size() &&
+                (list_.layers[item.layer].blend == Blend::max ? drawing_.items[runs[i + 1].item].layer == item.layer
+                                                              : runs[i + 1].item == runs[i].item);
+            if (!merges_with_next) composite();
+        }
+    }
+
+    /// Lays the plane's coverage over the ink and clears it.
+    void composite() {
+        for (int y = plane_.dirty.y0; y < plane_.dirty.y1; ++y) {
+            float* coverage = plane_.coverage_row(y);
+            const std::uint32_t* winner = plane_.item_row(y);
+            Premultiplied* ink = ink_.data() + std::size_t(y) * std::size_t(plane_.width);
+            for (int x = plane_.dirty.x0; x < plane_.dirty.x1; ++x) {
+                if (coverage[x] == 0) continue;
+                const Rgba c = drawing_.items[winner[x]].colour;
+                const float a = coverage[x] * c.a, rest = 1 - a;
+                Premultiplied& under = ink[x];
+                under = {c.r * a + under.r * rest, c.g * a + under.g * rest, c.b * a + under.b * rest,
+                         a + under.a * rest};
+                coverage[x] = 0;
+            }
+        }
+        plane_.dirty = {};
+    }
+
+    Premultiplied mean_ink(int x, int y) const {
+        const int k = drawing_.samples_per_pixel;
+        const Premultiplied* first = ink_.data() + std::size_t(y * k) * std::size_t(plane_.width) + std::size_t(x * k);
+        if (k == 1) return *first;
+        Premultiplied sum;
+        for (int j = 0; j < k; ++j)
+            for (int i = 0; i < k; ++i) {
+                const Premultiplied& p = first[std::size_t(j) * std::size_t(plane_.width) + std::size_t(i)];
+                sum = {sum.r + p.r, sum.g + p.g, sum.b + p.b, sum.a + p.a};
+            }
+        const float share = 1.0f / float(k * k);
+        return {sum.r * share, sum.g * share, sum.b * share, sum.a * share};
+    }
+
+    void lay_on_paper() {
+        const Rgba paper = list_.paper.colour;
+        const bool textured = list_.paper.grain > 0 && paper.a > 0;
+        const float* grain = textured ? grain_.block(x0_, y0_, width_, height_).data() : nullptr;
+        for (int y = 0; y < height_; ++y) {
+            Rgba8* row = out_.row(y0_ + y) + x0_;
+            for (int x = 0; x < width_; ++x) {
+                const float light = textured ? 1 + list_.paper.grain * *grain++ : 1.0f;
+                const Premultiplied ink = mean_ink(x, y);
+                const float rest = (1 - ink.a) * paper.a;
+                auto under = [&](float v) { return rest * std::clamp(v * light, 0.0f, 1.0f); };
+                row[x] =
+                    straight({ink.r + under(paper.r), ink.g + under(paper.g), ink.b + under(paper.b), ink.a + rest});
+            }
+        }
+    }
+
+    const DisplayList& list_;
+    const Prepared& drawing_;
+    Picture& out_;
+    Grain grain_;
+    int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;  ///< the tile's pixels
+    CoveragePlane plane_;
+    std::vector<Premultiplied> ink_;
+    std::vector<float> scratch_;
+};
+
+}  // namespace
+
+Picture raster(const DisplayList& list, const RasterOptions& options, const Work& work) {
+    assert(options.size_px.x > 0 && options.size_px.y > 0 && list.width_px > 0 && list.height_px > 0);
+    Picture out(options.size_px);
+    tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+        const Prepared drawing = prepared(list, options.size_px, work);
+        tbb::enumerable_thread_specific<TilePainter> painters([&] { return TilePainter(list, drawing, out); });
+        tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
+            work.check();
+            painters.local().paint(int(tile) % drawing.tiles.x, int(tile) / drawing.tiles.x);
+        });
+    });
+    return out;
+}
+
+}  // namespace dstylize

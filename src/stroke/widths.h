@@ -1,0 +1,68 @@
+#pragma once
+#include <vector>
+
+#include "core/branching.h"
+#include "core/grid.h"
+#include "core/parameters.h"
+
+namespace dstylize {
+
+/// How wide the strokes are: the [width] table of a style. Lengths in u. The four rules are blended
+/// by their weights: tone (wanted tone / line density, ours), importance (004 s. 4.3), branch (pipe
+/// model), constant.
+struct WidthParameters {
+    float tone = 1, importance = 0, branch = 0, constant = 0;
+    float narrowest = 0.45f, widest = 4.2f;
+    float constant_width = 1.4f;
+    float tone_gamma = 1.8f, tone_most = 0.86f, tone_lines = 0.3f;
+    int feedback = 3;
+    float importance_gamma = 1.5f;
+    float branch_exponent = 0.42f;
+    float trunk = 7, trunk_least_tone = 0.3f;
+    float window = 9;
+    float tip = 14, tip_width = 0.45f;
+
+    void visit(ParameterVisitor& visitor);
+};
+
+/// The fields that widths look at, at the lattice's extent, values in [0, 1].
+struct WidthFields {
+    const Grid<float>&tone, &lines, &importance;
+};
+
+/// Widths of a dendrite's nodes, in lattice steps. Use: construct, read `widths()`, draw, compare the
+/// drawn ink with `target_ink()`, `correct()`, and again.
+class Widths {
+  public:
+    /// `u`: lattice steps per u. References must outlive this object.
+    Widths(const Dendrite& dendrite, const Branching& branching, const WidthParameters& parameters,
+           const WidthFields& fields, float u);
+
+    /// One full width per node, after rolling mean, trunk floor, junction caps and tip taper.
+    const std::vector<float>& widths() const { return widths_; }
+    /// Share of the area that should be inked, per node.
+    const Grid<float>& target_ink() const { return target_ink_; }
+    /// Multiplies the raw widths by target / drawn (both blurred by the caller) at each node, by at
+    /// most `kMostCorrection` either way, and finishes them anew.
+    void correct(const Grid<float>& blurred_target, const Grid<float>& blurred_drawn);
+
+    static constexpr float kMostCorrection = 1.6f;
+
+  private:
+    float raw_width(std::uint32_t v, float tone_width) const;
+    void finish();
+    void roll(std::vector<float>& values) const;
+    void raise_trunk();
+    void cap_at_junctions();
+    void taper_tips();
+
+    const Dendrite& dendrite_;
+    const Branching& branching_;
+    WidthParameters parameters_;
+    WidthFields fields_;
+    float u_;
+    Grid<float> target_ink_;
+    std::vector<float> raw_, widths_;
+};
+
+}  // namespace dstylize
