@@ -46,7 +46,7 @@ std::vector<Source> Growth::sources(double carry, double cost_per_step) const {
     return out;
 }
 
-Dendrite without_spurs(const Dendrite& d, float least_length) {
+Dendrite without_spurs(const Dendrite& d, const std::function<float(Vec2f)>& least_length) {
     const Branching b = branching(d);
     std::vector<bool> spur(d.size(), false);
     std::vector<std::uint32_t> kept_as(d.size(), Dendrite::kRoot);
@@ -55,7 +55,7 @@ Dendrite without_spurs(const Dendrite& d, float least_length) {
         if (!d.is_root(v)) {
             const std::uint32_t p = d.parent[v];
             const float reach = b.height[v] + distance(d.position_lattice[v], d.position_lattice[p]);
-            spur[v] = spur[p] || (b.main_child[p] != v && reach < least_length);
+            spur[v] = spur[p] || (b.main_child[p] != v && reach < least_length(d.position_lattice[v]));
         }
         if (spur[v]) continue;
         const std::uint32_t parent = d.is_root(v) ? Dendrite::kRoot : kept_as[d.parent[v]];
