@@ -172,6 +172,7 @@ Plan plan_on(const PlanRequest& request, const Work& work) {
 class BucketPlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
+        work.check();
         switch (request.graph.lattice.neighbourhood()) {
             case Neighbourhood::square4: return plan_on<4>(request, work);
             case Neighbourhood::square8: return plan_on<8>(request, work);
