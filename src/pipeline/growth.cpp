@@ -5,6 +5,7 @@
 
 #include "core/sampling.h"
 #include "dendrite/graft.h"
+#include "graph/bucket_planner.h"
 #include "graph/graph_distance.h"
 #include "graph/height_planes.h"
 #include "imaging/filters.h"
@@ -143,7 +144,7 @@ Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& styl
             endpoints = discs(fields, passable, stage.endpoints, growth.dendrite(), controls.seed, std::uint32_t(s));
         work.report(stage.name + ": paths", (0.4 + double(s)) / (double(style.stages.size()) + 1));
         const std::vector<Source> sources = stage_sources(growth, graph, stage);
-        const Plan plan = reference_planner().plan(
+        const Plan plan = bucket_planner().plan(
             {graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
         if (observer) observer({stage, graph, plan, endpoints});
         out.endpoints.push_back(endpoints.size());
