@@ -9,7 +9,7 @@
 namespace dstylize {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string toml_text(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') out += '\\';
@@ -35,10 +35,10 @@ struct Writer final : ParameterVisitor {
     void integer(ParameterDoc doc, int& value, int, int) override { line(doc, std::to_string(value)); }
     void flag(ParameterDoc doc, bool& value) override { line(doc, value ? "true" : "false"); }
     void choice(ParameterDoc doc, int& value, std::span<const std::string_view> names) override {
-        line(doc, quoted(names[std::size_t(value)]));
+        line(doc, toml_text(names[std::size_t(value)]));
     }
-    void colour(ParameterDoc doc, Rgba& value) override { line(doc, quoted(hex(value))); }
-    void text(ParameterDoc doc, std::string& value) override { line(doc, quoted(value)); }
+    void colour(ParameterDoc doc, Rgba& value) override { line(doc, toml_text(hex(value))); }
+    void text(ParameterDoc doc, std::string& value) override { line(doc, toml_text(value)); }
     void field_weights(ParameterDoc doc, FieldWeights& value) override {
         std::vector<std::string> parts;
         for (const auto& [field, weight] : value) parts.push_back(fmt::format("{} = {}", field, decimal(weight)));
@@ -95,8 +95,8 @@ struct Describer final : ParameterVisitor {
 
 std::string style_toml(Style& style) {
     Writer writer;
-    writer.out = fmt::format("[style]\nname = {}\nsummary = {}\nmetaphor = {}\n", quoted(style.name),
-                             quoted(style.summary), quoted(style.metaphor_name));
+    writer.out = fmt::format("[style]\nname = {}\nsummary = {}\nmetaphor = {}\n", toml_text(style.name),
+                             toml_text(style.summary), toml_text(style.metaphor_name));
     style.visit(writer);
     return writer.out;
 }

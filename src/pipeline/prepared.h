@@ -1,0 +1,14 @@
+#pragma once
+#include "pipeline/controls.h"
+#include "pipeline/style.h"
+
+namespace dstylize {
+
+/// A picture brought to the lattice: its fields, and where something may grow.
+struct Prepared {
+    Fields fields;
+    Grid<std::uint8_t> passable;
+};
+Prepared prepared(const Picture& picture, const Style& style, const Controls& controls);
+
+}  // namespace dstylize

@@ -1,0 +1,190 @@
+#include "pipeline/roots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "imaging/filters.h"
+
+namespace dstylize {
+namespace {
+
+using Place = RootParameters::Place;
+
+/// Bounds of one connected part, in nodes.
+struct Box {
+    int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+    void add(int i, int j) {
+        left = std::min(left, i);
+        top = std::min(top, j);
+        right = std::max(right, i);
+        bottom = std::max(bottom, j);
+    }
+};
+
+NodeId cheapest_near(const WeightedLattice& graph, const PassableParts& parts, NodeId start, float radius) {
+    const Lattice& lattice = graph.lattice;
+    const int column = lattice.column(start), row = lattice.row(start), reach = int(radius);
+    const std::uint32_t part = parts.part[index(start)];
+    NodeId best = start;
+    int best_distance = 0;
+    for (int j = std::max(0, row - reach); j <= std::min(lattice.extent().y - 1, row + reach); ++j)
+        for (int i = std::max(0, column - reach); i <= std::min(lattice.extent().x - 1, column + reach); ++i) {
+            const NodeId node = lattice.at(i, j);
+            const int away = (i - column) * (i - column) + (j - row) * (j - row);
+            if (away > reach * reach || parts.part[index(node)] != part) continue;
+            const auto weight = graph.weight[index(node)], least = graph.weight[index(best)];
+            if (weight < least || (weight == least && away < best_distance)) {
+                best = node;
+                best_distance = away;
+            }
+        }
+    return best;
+}
+
+/// How good a node is for a root of that kind, or -inf where it cannot be.
+class PlaceScore {
+  public:
+    PlaceScore(Fields& fields, const RootParameters& parameters, Place place)
+        : place_(place),
+          u_(fields.u()),
+          inset_(parameters.inset * u_),
+          interest_(blurred(fields[place == Place::darkest ? "darkness" : "importance"], (place == Place::darkest ? 6 : 3) * u_)) {}
+
+    float operator()(const Box& box, int i, int j) const {
+        constexpr float kCentring = 0.35f, kBand_u = 3;
+        const float width = float(box.right - box.left) + 1, height = float(box.bottom - box.top) + 1;
+        const float x = 2 * (float(i - box.left) + 0.5f) / width - 1;  // -1 … 1 across the part
+        const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
+        const float interest = interest_(i, j);
+        if (place_ == Place::darkest) return interest;
+        if (place_ == Place::centre) return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9
+                                                ? interest - 0.1f * (x * x + y * y) : kNever;
+        const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
+        const float wanted = std::min(inset_, height / 4);
+        if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
+        return interest - kCentring * x * x;
+    }
+    static constexpr float kNever = -1e9f;
+
+  private:
+    Place place_;
+    float u_, inset_;
+    Grid<float> interest_;
+};
+
+/// The best node of every part that is worth a root.
+std::vector<NodeId> best_of_parts(Fields& fields, const WeightedLattice& graph, const PassableParts& parts,
+                                  const RootParameters& parameters, Place place) {
+    const Extent e = graph.lattice.extent();
+    std::vector<Box> boxes(parts.size.size());
+    for (int j = 0; j < e.y; ++j)
+        for (int i = 0; i < e.x; ++i)
+            if (const std::uint32_t part = parts.part(i, j); part != PassableParts::kNone) boxes[part].add(i, j);
+    const PlaceScore score(fields, parameters, place);
+    std::vector<NodeId> best(parts.size.size(), kNoNode);
+    std::vector<float> best_score(parts.size.size(), 2 * PlaceScore::kNever);
+    for (int j = 0; j < e.y; ++j)
+        for (int i = 0; i < e.x; ++i) {
+            const std::uint32_t part = parts.part(i, j);
+            if (part == PassableParts::kNone) continue;
+            const float s = score(boxes[part], i, j);
+            if (s > best_score[part]) {
+                best_score[part] = s;
+                best[part] = graph.lattice.at(i, j);
+            }
+        }
+    return best;
+}
+
+NodeId chosen_node(const WeightedLattice& graph, const RootChoice& choice, Extent picture) {
+    const double x = choice.x.px(picture.x), y = choice.y.px(picture.y);
+    const std::string what = fmt::format("--root {},{}", choice.x.value, choice.y.value);
+    if (!(x >= 0 && y >= 0 && x <= picture.x && y <= picture.y))
+        throw Error(ErrorCode::bad_usage, "", what + " lies outside the picture",
+                    fmt::format("it is {} x {} pixels; fractions go from 0.0 to 1.0", picture.x, picture.y));
+    const Extent e = graph.lattice.extent();
+    return graph.lattice.nearest({float(x / picture.x * e.x), float(y / picture.y * e.y)});
+}
+
+/// The passable node nearest to `start` within `radius`, or kNoNode.
+NodeId passable_near(const WeightedLattice& graph, NodeId start, float radius) {
+    const Lattice& lattice = graph.lattice;
+    const int column = lattice.column(start), row = lattice.row(start), reach = int(std::ceil(radius));
+    NodeId best = kNoNode;
+    int best_distance = reach * reach + 1;
+    for (int j = std::max(0, row - reach); j <= std::min(lattice.extent().y - 1, row + reach); ++j)
+        for (int i = std::max(0, column - reach); i <= std::min(lattice.extent().x - 1, column + reach); ++i) {
+            const int away = (i - column) * (i - column) + (j - row) * (j - row);
+            if (away < best_distance && graph.passable(lattice.at(i, j))) {
+                best = lattice.at(i, j);
+                best_distance = away;
+            }
+        }
+    return best;
+}
+
+}  // namespace
+
+PassableParts passable_parts(const WeightedLattice& graph) {
+    const Lattice& lattice = graph.lattice;
+    PassableParts out{Grid<std::uint32_t>(lattice.extent(), PassableParts::kNone), {}};
+    const int steps = std::min(8, int(lattice.steps().size()));  // a knight's move never joins what these do not
+    std::vector<NodeId> open;
+    for (std::uint32_t n = 0; n < lattice.node_count(); ++n) {
+        if (!graph.passable(NodeId{n}) || out.part[n] != PassableParts::kNone) continue;
+        const auto part = std::uint32_t(out.size.size());
+        out.size.push_back(0);
+        out.part[n] = part;
+        open.assign(1, NodeId{n});
+        while (!open.empty()) {
+            const NodeId node = open.back();
+            open.pop_back();
+            ++out.size[part];
+            for (int s = 0; s < steps; ++s) {
+                const NodeId next = graph.neighbour(node, s);
+                if (next == kNoNode || !graph.passable(next) || out.part[index(next)] != PassableParts::kNone) continue;
+                out.part[index(next)] = part;
+                open.push_back(next);
+            }
+        }
+    }
+    return out;
+}
+
+std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, const RootParameters& parameters,
+                               const std::vector<RootChoice>& chosen, Extent picture_px) {
+    constexpr float kMoveAtMost_u = 8, kSmallestPart_u = 3;
+    const PassableParts parts = passable_parts(graph);
+    if (parts.size.empty())
+        throw Error(ErrorCode::failed, "", "nothing can grow: the mask or the transparent picture leaves no room",
+                    "give a mask with some white, or a picture that is not all transparent");
+    std::vector<RootChoice> choices = chosen;
+    if (choices.empty()) choices.push_back({parameters.place, {}, {}});
+    const float smallest = std::min(kSmallestPart_u * kSmallestPart_u * fields.u() * fields.u(),
+                                    float(*std::max_element(parts.size.begin(), parts.size.end())));
+    std::vector<NodeId> out;
+    for (const RootChoice& choice : choices) {
+        std::vector<NodeId> starts;
+        if (choice.place) {
+            starts = best_of_parts(fields, graph, parts, parameters, *choice.place);
+        } else {
+            // The margin at the frame is ours, not the user's: a root there moves just inside.
+            const NodeId at = passable_near(graph, chosen_node(graph, choice, picture_px), kMoveAtMost_u * fields.u());
+            if (at == kNoNode)
+                throw Error(ErrorCode::bad_usage, "", fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),
+                            "move it into the white part of the mask");
+            starts.push_back(at);
+        }
+        for (const NodeId start : starts) {
+            if (choice.place && float(parts.size[parts.part[index(start)]]) < smallest) continue;
+            const NodeId node = cheapest_near(graph, parts, start, kMoveAtMost_u * fields.u());
+            if (std::find(out.begin(), out.end(), node) == out.end()) out.push_back(node);
+        }
+    }
+    return out;
+}
+
+}  // namespace dstylize

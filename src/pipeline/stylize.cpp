@@ -1,0 +1,116 @@
+#include "pipeline/stylize.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "imaging/filters.h"
+#include "pipeline/growth.h"
+#include "pipeline/prepared.h"
+#include "render/raster.h"
+
+namespace dstylize {
+namespace {
+
+/// Lattice frame to picture frame.
+struct Frame {
+    float x_scale, y_scale, width_scale;
+    Vec2f px(Vec2f p) const { return {p.x * x_scale, p.y * y_scale}; }
+};
+Frame frame(Extent lattice, Extent picture) {
+    const float x = float(picture.x) / float(lattice.x), y = float(picture.y) / float(lattice.y);
+    // A side of one node says nothing about the scale.
+    return {x, y, lattice.x >= lattice.y ? x : y};
+}
+
+std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite,
+                                    const Branching& b, const std::vector<float>& widths, const Frame& to) {
+    constexpr float kHiddenInParent = 0.9f;
+    std::vector<VariableStroke> out(lines.size());
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const Branch& branch = b.branches[lines[s].branch];
+        VariableStroke& stroke = out[s];
+        stroke.order = branch.order;
+        stroke.stage = dendrite.stage[branch.nodes.back()];
+        for (const Vec2f p : lines[s].points_lattice) stroke.points_px.push_back(to.px(p));
+        const float first = widths[branch.nodes[0]], second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
+        const bool joins = branch.parent_branch != Branch::kNone;
+        const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
+        stroke.width_px.assign(lines[s].lead, at_joint * to.width_scale);
+        stroke.width_px.push_back(at_joint * to.width_scale);
+        for (std::size_t k = 1; k < branch.nodes.size(); ++k)
+            stroke.width_px.push_back(widths[branch.nodes[k]] * to.width_scale);
+    }
+    return out;
+}
+
+/// Share of every lattice cell that the strokes ink.
+Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
+    DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
+    Layer layer{"ink", Blend::max, {}};
+    for (VariableStroke& stroke : strokes_lattice) {
+        stroke.colour = {0, 0, 0, 1};
+        layer.items.push_back(std::move(stroke));
+    }
+    list.layers.push_back(std::move(layer));
+    const Picture black_on_white = raster(list, {lattice}, work);
+    Grid<float> out(lattice);
+    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(), [](Rgba8 p) { return 1 - float(p.r) / 255; });
+    return out;
+}
+
+/// Draws, compares the ink with the wanted tone, corrects, as often as the style says.
+void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, const Dendrite& dendrite,
+              const Branching& b, float u, const Work& work) {
+    constexpr float kTargetWindow_u = 4, kDrawnWindow_u = 6;
+    const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
+    for (int pass = 0; pass < passes; ++pass) {
+        work.check();
+        const Grid<float> ink = drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
+        widths.correct(target, blurred(ink, kDrawnWindow_u * u));
+    }
+}
+
+Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
+    work.report("fields", 0);
+    Prepared base = prepared(picture, style, controls);
+    Fields& fields = base.fields;
+    const float u = fields.u();
+    Grown grown = grow(fields, base.passable, style, controls, picture.extent(), {}, work);
+
+    work.report("strokes", 0.75);
+    Drawing out;
+    out.lattice = fields.extent();
+    out.picture = picture.extent();
+    out.dendrite = std::move(grown.dendrite);
+    out.endpoints = std::move(grown.endpoints);
+    out.unreached = grown.unreached;
+    for (const StageParameters& stage : style.stages) out.stage_names.push_back(stage.name);
+    const Branching b = branching(out.dendrite);
+    smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
+    const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
+    Widths widths(out.dendrite, b, style.width, {fields["tone"], fields["lines"], fields["importance"]}, u);
+    if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
+
+    work.report("drawing", 0.85);
+    const Frame to = frame(out.lattice, out.picture);
+    const std::vector<VariableStroke> drawn = strokes(lines, out.dendrite, b, widths.widths(), to);
+    out.strokes = drawn.size();
+    out.width_u = widths.widths();
+    for (float& w : out.width_u) w /= u;
+    out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale, drawn,
+                                     [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
+                                     controls.seed});
+    return out;
+}
+
+}  // namespace
+
+Drawing stylize(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
+    if (work.threads <= 0) return stylized(picture, style, controls, work);
+    tbb::task_arena arena(work.threads);
+    return arena.execute([&] { return stylized(picture, style, controls, work); });
+}
+
+}  // namespace dstylize
