@@ -9,9 +9,9 @@
 
 namespace dstylize {
 
-/// A centreline with its full width at every point: a branch as the renderers draw it. Between the
-/// points it is a polyline of tapered capsules (round ends and joints); points are dense enough to
-/// look smooth at the size the display list was made for.
+/// A centreline with its full width at every point: a branch as the renderers draw it. The points are knots
+/// of a smooth curve (geometry/tapered_line.h; a turn above 60 degrees stays a corner), drawn as tapered
+/// capsules with round ends and joints, so that it is smooth at any size.
 struct VariableStroke {
     std::vector<Vec2f> points_px;
     std::vector<float> width_px;  ///< one per point, full width
