@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "codec/byte_reader.h"
+#include "codec/upright.h"
+#include "core/grid.h"
+#include "ipc/codec_protocol.h"
+#include "ipc/descriptor.h"
+#include "ipc/shared_memory.h"
+
+namespace dstylize::codec {
+
+struct Limits {
+    std::uint64_t max_memory_bytes = 0;
+    bool allow_damaged = false;
+};
+
+struct Decoded {
+    Extent extent;
+    bool has_alpha = false;
+    double dpi = 0;
+    ipc::MetadataText text;
+    ipc::Descriptor pixels;  ///< memory of extent.count() Rgba8
+};
+
+/// Decodes a picture file that lies in memory: `bytes` is the content of `file`. Throws Refusal, and
+/// whatever the decoders throw.
+Decoded decoded(Bytes bytes, const ipc::Descriptor& file, const Limits& limits);
+
+/// Refuses sizes of zero and those that need more than the limit: 4 bytes a pixel on each side of the
+/// channel, and `extra_pixel_bytes` where a decoder holds the whole picture itself.
+void check_size(Extent stored, std::uint64_t extra_pixel_bytes, const Limits& limits);
+
+/// The memory that takes an upright picture row by row.
+class PictureSink {
+  public:
+    PictureSink(Extent stored, int orientation);
+    const Upright& upright() const { return upright_; }
+    void place(std::span<const Rgba8> rows, int first_row) { upright_.place(rows, first_row, pixels()); }
+    std::span<Rgba8> pixels() const;
+    ipc::Descriptor take() { return std::move(memory_); }
+
+  private:
+    Upright upright_;
+    ipc::Descriptor memory_;
+    ipc::Mapping mapping_;
+};
+
+}  // namespace dstylize::codec

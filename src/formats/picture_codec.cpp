@@ -1,0 +1,161 @@
+#include "formats/picture_codec.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include "core/error.h"
+#include "formats/codec_process.h"
+#include "ipc/codec_protocol.h"
+#include "ipc/shared_memory.h"
+
+namespace dstylize {
+namespace {
+
+static_assert(sizeof(Rgba8) == 4, "pixels travel as they lie in a Picture");
+constexpr std::uint64_t kMaxTextBytes = 64u << 20;
+
+struct Reply {
+    ipc::CodecAnswer answer;
+    ipc::Descriptor payload;
+};
+
+/// A zero-terminated text of the codec as one printable line; the codec is not trusted to have sent one.
+template <std::size_t N>
+std::string line(const char (&text)[N]) {
+    std::string s(text, strnlen(text, N));
+    std::replace_if(s.begin(), s.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return s;
+}
+
+std::span<std::byte> bytes_of(Picture& picture) {
+    return {reinterpret_cast<std::byte*>(picture.data()), picture.size() * sizeof(Rgba8)};
+}
+std::span<const std::byte> bytes_of(const Picture& picture) {
+    return {reinterpret_cast<const std::byte*>(picture.data()), picture.size() * sizeof(Rgba8)};
+}
+std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+/// Sends one request to the process, starting it when there is none. Errors about the picture are of
+/// `code` and name `file`; the process is renewed whenever it may not be trusted any more.
+Reply reply(const CodecOptions& options, std::unique_ptr<CodecProcess>& process, const ipc::CodecRequest& request,
+            const ipc::Descriptor& payload, ErrorCode code, const std::string& file) {
+    const auto renew = [&] {
+        process.reset();
+        process = std::make_unique<CodecProcess>(options.program, options.max_memory_bytes);
+    };
+    if (!process) renew();
+    Reply reply;
+    std::string death;
+    using Outcome = CodecProcess::Outcome;
+    switch (process->ask(request, payload, reply.answer, reply.payload, options.timeout_s)) {
+        case Outcome::answered: break;
+        case Outcome::died: death = process->cause_of_death(); break;
+        case Outcome::timed_out: {
+            renew();
+            const std::string limit = std::to_string(std::lround(options.timeout_s)) + " s";
+            throw Error(code, file,
+                        code == ErrorCode::cannot_read ? "decoding took longer than " + limit
+                                                       : "encoding took longer than " + limit,
+                        "the file may be damaged; allow more time for a very large one");
+        }
+    }
+    if (!death.empty()) {
+        renew();
+        const bool reading = code == ErrorCode::cannot_read;
+        throw Error(code, file, (reading ? "the decoder crashed on it (" : "the encoder crashed (") + death + ")",
+                    reading ? "the file is damaged or hostile; export it again" : "try another format");
+    }
+    if (reply.answer.retires) renew();
+    if (reply.answer.status != ipc::CodecStatus::done)
+        throw Error(code, file, line(reply.answer.problem), line(reply.answer.remedy));
+    return reply;
+}
+
+[[noreturn]] void implausible(std::unique_ptr<CodecProcess>& process, ErrorCode code, const std::string& file) {
+    process.reset();
+    throw Error(code, file, "the picture codec gave a wrong answer", "the file is damaged or hostile");
+}
+
+[[noreturn]] void out_of_resources(const std::system_error& error, const std::string& file) {
+    throw Error(ErrorCode::failed, file, std::string("the system refused (") + error.what() + ")",
+                "free memory or close programs");
+}
+
+}  // namespace
+
+std::string PictureMetadata::find(const std::string& key) const {
+    const auto found = std::find_if(text.begin(), text.end(), [&](const auto& entry) { return entry.first == key; });
+    return found == text.end() ? "" : found->second;
+}
+
+PictureCodec::PictureCodec(CodecOptions options) : options_(std::move(options)) {
+    options_.program = codec_program(options_.program);
+    process_ = std::make_unique<CodecProcess>(options_.program, options_.max_memory_bytes);
+}
+PictureCodec::~PictureCodec() = default;
+PictureCodec::PictureCodec(PictureCodec&&) noexcept = default;
+PictureCodec& PictureCodec::operator=(PictureCodec&&) noexcept = default;
+
+DecodedPicture PictureCodec::decode(std::span<const std::byte> file_bytes, const std::string& name) try {
+    constexpr ErrorCode code = ErrorCode::cannot_read;
+    if (file_bytes.empty()) throw Error(code, name, "is empty", "give a picture");
+    ipc::Descriptor file = ipc::shared_memory(file_bytes.size());
+    ipc::write_all(file, file_bytes);
+    ipc::CodecRequest request;
+    request.operation = ipc::CodecOperation::decode;
+    request.allow_damaged = options_.allow_damaged;
+    request.payload_bytes = file_bytes.size();
+    const auto [answer, payload] = reply(options_, process_, request, file, code, name);
+    file.reset();
+
+    const Extent extent{answer.width, answer.height};
+    if (extent.x < 1 || extent.y < 1 || answer.payload_bytes != extent.count() * sizeof(Rgba8) ||
+        answer.payload_bytes > options_.max_memory_bytes || answer.text_bytes > kMaxTextBytes ||
+        ipc::size_bytes(payload) != answer.payload_bytes + answer.text_bytes)
+        implausible(process_, code, name);
+    DecodedPicture decoded{Picture(extent), answer.has_alpha != 0, {}};
+    ipc::drain(payload, bytes_of(decoded.picture));
+    std::string text(answer.text_bytes, '\0');
+    ipc::read_all(payload, std::as_writable_bytes(std::span(text)), answer.payload_bytes);
+    decoded.metadata.text = ipc::unpacked_text(text);
+    if (std::isfinite(answer.dpi) && answer.dpi > 0) decoded.metadata.dpi = answer.dpi;
+    return decoded;
+} catch (const std::system_error& error) {
+    out_of_resources(error, name);
+}
+
+std::vector<std::byte> PictureCodec::encode(const Picture& picture, const EncodeOptions& options,
+                                            const std::string& name) try {
+    constexpr ErrorCode code = ErrorCode::cannot_write;
+    assert(!picture.empty() && picture.extent().z == 1);
+    const std::string text = ipc::packed_text(options.metadata.text);
+    ipc::CodecRequest request;
+    request.operation = ipc::CodecOperation::encode;
+    request.payload_bytes = picture.size() * sizeof(Rgba8);
+    request.text_bytes = text.size();
+    request.width = picture.extent().x;
+    request.height = picture.extent().y;
+    request.dpi = options.metadata.dpi;
+    options.format.copy(request.encode.format, sizeof(request.encode.format) - 1);
+    request.encode.quality = options.quality;
+    request.encode.compression = options.compression;
+    ipc::Descriptor pixels = ipc::shared_memory(request.payload_bytes + request.text_bytes);
+    ipc::write_all(pixels, bytes_of(picture));
+    ipc::write_all(pixels, bytes_of(text), request.payload_bytes);
+    const auto [answer, payload] = reply(options_, process_, request, pixels, code, name);
+    pixels.reset();
+
+    if (answer.payload_bytes == 0 || ipc::size_bytes(payload) != answer.payload_bytes ||
+        answer.payload_bytes > 2 * request.payload_bytes + request.text_bytes + (64u << 20))
+        implausible(process_, code, name);
+    std::vector<std::byte> file(answer.payload_bytes);
+    ipc::drain(payload, file);
+    return file;
+} catch (const std::system_error& error) {
+    out_of_resources(error, name);
+}
+
+}  // namespace dstylize
