@@ -24,7 +24,8 @@ inline std::uint64_t integer_at(Bytes data, std::size_t offset, int size, Endian
     if (bytes.size() < std::size_t(size)) return 0;
     std::uint64_t value = 0;
     for (int i = 0; i < size; ++i)
-        value = value << 8 | std::to_integer<std::uint64_t>(bytes[std::size_t(endian == Endian::big ? i : size - 1 - i)]);
+        value =
+            value << 8 | std::to_integer<std::uint64_t>(bytes[std::size_t(endian == Endian::big ? i : size - 1 - i)]);
     return value;
 }
 

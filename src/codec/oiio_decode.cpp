@@ -185,8 +185,8 @@ Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const Pixel
     Decoded decoded;
     decoded.extent = sink.upright().extent();
     const auto transparent = [](Rgba8 p) { return p.a != 255; };
-    decoded.has_alpha = !whole || (layout.alpha >= 0 && (format != FileFormat::gif ||
-                                                          std::ranges::any_of(sink.pixels(), transparent)));
+    decoded.has_alpha =
+        !whole || (layout.alpha >= 0 && (format != FileFormat::gif || std::ranges::any_of(sink.pixels(), transparent)));
     decoded.pixels = sink.take();
     return decoded;
 }

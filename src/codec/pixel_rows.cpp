@@ -99,7 +99,8 @@ void PixelConverter::convert_typed(const T* samples, std::span<Rgba8> pixels) co
                         straight(gathered[n * colours + c], in[n * stride + std::size_t(layout_.alpha)]);
         if (transform_) {
             if constexpr (std::is_same_v<T, float>)
-                std::transform(gathered.begin(), gathered.begin() + std::ptrdiff_t(count * colours), gathered.begin(), unit);
+                std::transform(gathered.begin(), gathered.begin() + std::ptrdiff_t(count * colours), gathered.begin(),
+                               unit);
             transform_->apply(gathered.data(), rgb.data(), count);
         } else if (colours == 4) {
             for (std::size_t n = 0; n < count; ++n)
@@ -108,8 +109,7 @@ void PixelConverter::convert_typed(const T* samples, std::span<Rgba8> pixels) co
         } else if (colours == 3) {
             for (std::size_t n = 0; n < count * 3; ++n) rgb[n] = colour8(gathered[n]);
         } else {
-            for (std::size_t n = 0; n < count; ++n)
-                rgb[n * 3] = rgb[n * 3 + 1] = rgb[n * 3 + 2] = colour8(gathered[n]);
+            for (std::size_t n = 0; n < count; ++n) rgb[n * 3] = rgb[n * 3 + 1] = rgb[n * 3 + 2] = colour8(gathered[n]);
         }
         for (std::size_t n = 0; n < count; ++n) {
             const std::uint8_t a = layout_.alpha < 0 ? 255 : alpha8(in[n * stride + std::size_t(layout_.alpha)]);

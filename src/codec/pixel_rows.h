@@ -11,11 +11,11 @@ namespace dstylize::codec {
 /// What a file's interleaved samples mean.
 struct SampleLayout {
     SampleType type = SampleType::uint8;
-    int channels = 3;             ///< samples per pixel as they lie in memory
-    int colours = 3;              ///< of which colour: 1 grey, 3 RGB, 4 CMYK (0: no ink)
+    int channels = 3;              ///< samples per pixel as they lie in memory
+    int colours = 3;               ///< of which colour: 1 grey, 3 RGB, 4 CMYK (0: no ink)
     int colour[4] = {0, 1, 2, 3};  ///< where each colour lies
-    int alpha = -1;               ///< where alpha lies; -1: opaque
-    bool premultiplied = false;   ///< colours are multiplied by alpha (associated)
+    int alpha = -1;                ///< where alpha lies; -1: opaque
+    bool premultiplied = false;    ///< colours are multiplied by alpha (associated)
 
     std::size_t sample_bytes() const { return type == SampleType::uint8 ? 1 : type == SampleType::uint16 ? 2 : 4; }
     std::size_t pixel_bytes() const { return sample_bytes() * std::size_t(channels); }

@@ -53,14 +53,14 @@ struct ProfileTransform::Handles {
 };
 
 ProfileTransform::ProfileTransform(Bytes icc_profile, int channels, SampleType type)
-    : handles_(std::make_unique<Handles>(
-          cmsOpenProfileFromMem(icc_profile.data(), cmsUInt32Number(icc_profile.size())), channels, type)) {}
+    : handles_(std::make_unique<Handles>(cmsOpenProfileFromMem(icc_profile.data(), cmsUInt32Number(icc_profile.size())),
+                                         channels, type)) {}
 
 ProfileTransform::ProfileTransform(double gamma, int channels, SampleType type) {
     cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
     cmsToneCurve* const curves[] = {curve, curve, curve};
-    const cmsHPROFILE source = channels == 1 ? cmsCreateGrayProfile(&kD65, curve)
-                                             : cmsCreateRGBProfile(&kD65, &kRec709, curves);
+    const cmsHPROFILE source =
+        channels == 1 ? cmsCreateGrayProfile(&kD65, curve) : cmsCreateRGBProfile(&kD65, &kRec709, curves);
     cmsFreeToneCurve(curve);
     handles_ = std::make_unique<Handles>(source, channels, type);
 }

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -81,7 +83,8 @@ class NewFile {
     explicit NewFile(const std::filesystem::path& target) : target_(target) {
         const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
         file_ = Descriptor(::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
-        if (!file_) with_free_name([&](const char* name) {
+        if (!file_)
+            with_free_name([&](const char* name) {
                 file_ = Descriptor(::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
                 return bool(file_);
             });
@@ -119,9 +122,10 @@ class NewFile {
     template <class Create>
     void with_free_name(Create create) {
         // Long names are cut so that the suffix fits into the 255 bytes of a file name.
-        const std::string stem = "." + target_.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
+        const std::string stem = target_.filename().string().substr(0, 200);
         for (int attempt = 0; attempt < 1000; ++attempt) {
-            const std::string name = (target_.parent_path() / (stem + "-" + std::to_string(attempt) + ".tmp")).string();
+            const std::string file_name = fmt::format(".{}.{}-{}.tmp", stem, ::getpid(), attempt);
+            const std::string name = (target_.parent_path() / file_name).string();
             if (create(name.c_str())) {
                 name_ = name;
                 return;
@@ -147,7 +151,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_
         cannot_read(name, errno == ENOENT ? "no such file" : "cannot be read (" + text_of(errno) + ")",
                     errno == ENOENT ? "check its name" : "check its permissions");
     struct stat status {};
-    if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode)) cannot_read(name, "is a folder", "give a file");
+    if (::fstat(file.number(), &status) == 0 && S_ISDIR(status.st_mode))
+        cannot_read(name, "is a folder", "give a file");
 
     const auto too_long = [&] {
         cannot_read(name, "is longer than " + std::to_string(max_bytes >> 20) + " MB", "raise --max-memory");

@@ -26,7 +26,8 @@ struct Reply {
 template <std::size_t N>
 std::string line(const char (&text)[N]) {
     std::string s(text, strnlen(text, N));
-    std::replace_if(s.begin(), s.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    std::replace_if(
+        s.begin(), s.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     return s;
 }
 

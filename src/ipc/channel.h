@@ -25,13 +25,13 @@ Arrival receive_message(const Descriptor& channel, std::span<std::byte> message,
 
 /// The same for a plain struct.
 template <class T>
-    requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 bool send_struct(const Descriptor& channel, const T& message, int passed = -1) {
     return send_message(channel, std::as_bytes(std::span(&message, 1)), passed);
 }
 template <class T>
-    requires std::is_trivially_copyable_v<T>
-Arrival receive_struct(const Descriptor& channel, T& message, Descriptor& passed, int timeout_ms = -1) {
+requires std::is_trivially_copyable_v<T> Arrival receive_struct(const Descriptor& channel, T& message,
+                                                                Descriptor& passed, int timeout_ms = -1) {
     return receive_message(channel, std::as_writable_bytes(std::span(&message, 1)), passed, timeout_ms);
 }
 
