@@ -14,6 +14,7 @@ struct RasterOptions {
 /// The display list painted into pixels of straight alpha; the size of the output is free.
 ///
 /// Colours are composited premultiplied, in sRGB-encoded values as SVG and PDF viewers do it.
+/// A paper picture is sampled at pixel centres: bring it to the output's size before.
 /// Coverage is the analytic area of a stroke in a square sample; a sample is a pixel when strokes are wide
 /// and a fraction of one (down to 1/8) when they are thin, so that hairlines fade instead of breaking
 /// and dense ones keep their tone. Grain is keyed by output pixel.
