@@ -5,6 +5,7 @@
 #include "codec/file_format.h"
 #include "codec/oiio_decode.h"
 #include "codec/refusal.h"
+#include "codec/webp.h"
 
 namespace dstylize::codec {
 
@@ -30,7 +31,10 @@ std::span<Rgba8> PictureSink::pixels() const {
 Decoded decoded(Bytes bytes, const ipc::Descriptor& file, const Limits& limits) {
     const FileFormat format = recognised_format(bytes);
     if (const auto extent = declared_extent(format, bytes)) check_size(*extent, 0, limits);
-    return oiio_decoded(format, file, {}, limits);
+    if (format == FileFormat::webp) return webp_decoded(bytes, limits);
+    const EmbeddedMetadata embedded = embedded_metadata(format, bytes);
+    const auto exif = first_directory(format == FileFormat::tiff ? bytes : bytes_of(embedded.exif));
+    return oiio_decoded(format, file, embedded, exif, limits);
 }
 
 }  // namespace dstylize::codec

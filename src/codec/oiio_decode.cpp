@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -126,40 +127,63 @@ SampleLayout layout_of(FileFormat format, const ImageSpec& spec) {
     return layout;
 }
 
-std::optional<ProfileTransform> transform_for(const SampleLayout& layout, const PixelHints& hints) {
-    const Bytes profile = bytes_of(hints.icc_profile);
-    if (is_profile_for(profile, layout.colours)) {
-        try {
-            ProfileTransform transform(profile, layout.colours, layout.type);
-            if (!transform.is_identity()) return transform;
-        } catch (const Refusal&) {  // as if it had none: what every viewer does
-        }
-    } else if (hints.gamma > 0 && layout.colours != 4) {
-        ProfileTransform transform(hints.gamma, layout.colours, layout.type);
-        if (!transform.is_identity()) return transform;
-    }
-    return std::nullopt;
-}
-
 std::string profile_of(const ImageSpec& spec) {
     const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
     if (!profile || profile->type().basetype != TypeDesc::UINT8) return "";
     return std::string(static_cast<const char*>(profile->data()), profile->type().size());
 }
 
+/// A gamma that a PNG states without a profile, where it is not about that of sRGB; else 0.
+double stated_gamma(FileFormat format, const ImageSpec& spec) {
+    const double gamma = format == FileFormat::png ? spec.get_float_attribute("oiio:Gamma") : 0;
+    return gamma > 0.1 && gamma < 10 && std::abs(gamma - 2.2) > 0.05 ? gamma : 0;
+}
+
+std::optional<ProfileTransform> transform_for(FileFormat format, const SampleLayout& layout, const ImageSpec& spec) {
+    const std::string profile = profile_of(spec);
+    if (profile.empty()) {
+        if (const double gamma = stated_gamma(format, spec))
+            return ProfileTransform(gamma, layout.colours, layout.type);
+    } else if (is_profile_for(bytes_of(profile), layout.colours)) {
+        try {
+            ProfileTransform transform(bytes_of(profile), layout.colours, layout.type);
+            if (!transform.is_identity()) return transform;
+        } catch (const Refusal&) {  // a broken profile counts as none, as in every viewer
+        }
+    }
+    return std::nullopt;
+}
+
+/// EXIF's orientation of the rows that the reader delivers.
+int orientation_of(FileFormat format, const ImageSpec& spec, const std::optional<TiffDirectory>& exif) {
+    const int read = spec.get_int_attribute("Orientation", 1);
+    if (format == FileFormat::hdr || (format == FileFormat::tiff && !exif)) return read;
+    if (!exif) return 1;
+    const int stated = int(exif->integer(TiffTagId::orientation).value_or(1));
+    // Some kinds of TIFF are read through libtiff's TIFFReadRGBAImageOriented, which mirrors them already
+    // and leaves only the transposition.
+    const int photometric = int(exif->integer(TiffTagId::photometric).value_or(2));
+    const int compression = int(exif->integer(TiffTagId::compression).value_or(1));
+    const bool jpeg = compression == 6 || compression == 7;
+    const bool luminance_chroma = photometric == 6 || (photometric >= 8 && photometric <= 10) || photometric >= 32844;
+    const bool mirrored = format == FileFormat::tiff && !spec.tile_width &&
+                          (luminance_chroma || (jpeg && exif->integer(TiffTagId::samples_per_pixel) != 3u));
+    if (!mirrored) return stated;
+    return stated >= 5 && stated <= 8 ? 5 : 1;
+}
+
 }  // namespace
 
-Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const PixelHints& hints, const Limits& limits) {
+Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const EmbeddedMetadata& embedded,
+                     const std::optional<TiffDirectory>& exif, const Limits& limits) {
     Reader reader(format, file);
     const ImageSpec& spec = reader.spec();
     const Extent stored{spec.width, spec.height};
     check_size(stored, 0, limits);
     if (spec.depth > 1) throw Refusal("is a volume, not a picture", "give a flat picture");
     const SampleLayout layout = layout_of(format, spec);
-    PixelHints colour = hints;
-    if (colour.icc_profile.empty()) colour.icc_profile = profile_of(spec);
-    const PixelConverter converter(layout, transform_for(layout, colour));
-    PictureSink sink(stored, hints.orientation ? hints.orientation : spec.get_int_attribute("Orientation", 1));
+    const PixelConverter converter(layout, transform_for(format, layout, spec));
+    PictureSink sink(stored, orientation_of(format, spec, exif));
 
     const TypeDesc type = layout.type == SampleType::uint8    ? TypeDesc::UINT8
                           : layout.type == SampleType::uint16 ? TypeDesc::UINT16
@@ -188,6 +212,8 @@ Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const Pixel
     decoded.has_alpha =
         !whole || (layout.alpha >= 0 && (format != FileFormat::gif || std::ranges::any_of(sink.pixels(), transparent)));
     decoded.pixels = sink.take();
+    decoded.dpi = carried_dpi(spec, exif);
+    decoded.text = carried_text(spec, embedded.xmp);
     return decoded;
 }
 

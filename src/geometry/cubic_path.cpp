@@ -68,11 +68,15 @@ struct Misfit {
     std::size_t index = 0;
 };
 
+/// Measured at the corners and half-way between them, where a curve could bulge from a long edge.
 Misfit misfit(std::span<const Vec2f> points, const std::vector<float>& t, const Cubic& curve) {
     Misfit worst{0, points.size() / 2};
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-        const float d = distance(curve.at(t[i]), points[i]);
-        if (d > worst.distance) worst = {d, i};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Vec2f edge = normalized(points[i] - points[i - 1]), half = curve.at(0.5f * (t[i - 1] + t[i]));
+        const float bulge = std::abs(dot(half - points[i], perpendicular(edge)));
+        const float miss = distance(curve.at(t[i]), points[i]);
+        if (bulge > worst.distance) worst = {bulge, i};
+        if (miss > worst.distance) worst = {miss, i};
     }
     return worst;
 }

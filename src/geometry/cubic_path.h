@@ -18,9 +18,9 @@ struct CubicPath {
     std::vector<CubicPiece> pieces;
 };
 
-/// Few cubic pieces that follow a closed polygon within `tolerance`, measured at its corners (Schneider
-/// 1990). Turns above 40 degrees stay sharp; elsewhere the path is smooth. Empty for fewer than three
-/// distinct points. About O(n log n).
+/// Few cubic pieces that follow a closed polygon within `tolerance` (Schneider 1990). Turns above 40
+/// degrees stay sharp; elsewhere the path is smooth. Empty for fewer than three distinct points. About
+/// O(n log n).
 CubicPath fitted_path(std::span<const Vec2f> polygon, float tolerance);
 
 }  // namespace dstylize

@@ -148,8 +148,9 @@ void paint_capsule(CoveragePlane& plane, const Capsule& c, std::uint32_t item) {
     const float after = c.cut_to ? cut_length(c.radius_to) + 0.5f : c.after;
     const Vec2f a = c.from - c.along * before, b = c.from + c.along * (c.length + after);
     const float tall = reach * std::abs(c.along.x);
-    const int y0 = std::max(0, int(std::floor(std::max(std::min(a.y, b.y) - tall, -1.0f))));
-    const int y1 = int(std::min(float(plane.height), std::ceil(std::max(a.y, b.y) + tall)));
+    const float height = float(plane.height);
+    const int y0 = int(std::clamp(std::floor(std::min(a.y, b.y) - tall), 0.0f, height));
+    const int y1 = int(std::clamp(std::ceil(std::max(a.y, b.y) + tall), 0.0f, height));
     const Footprint foot(perpendicular(c.along));
     const bool wide = std::min(c.radius, c.radius_to) > kReach && !c.cut_from && !c.cut_to;
     for (int y = y0; y < y1; ++y) {

@@ -19,8 +19,9 @@ class AreaSums {
         const float sign = a.y < b.y ? 1.0f : -1.0f;
         if (a.y > b.y) std::swap(a, b);
         const float slope = (b.x - a.x) / (b.y - a.y);
-        const int first = int(std::max(0.0f, std::floor(a.y)));
-        const int last = int(std::min(float(height_), std::ceil(b.y)));
+        const float height = float(height_);
+        const int first = int(std::clamp(std::floor(a.y), 0.0f, height));
+        const int last = int(std::clamp(std::ceil(b.y), 0.0f, height));
         for (int y = first; y < last; ++y) {
             const float top = std::max(a.y, float(y)), bottom = std::min(b.y, float(y + 1));
             if (top >= bottom) continue;

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "graph/bucket_planner.h"
 #include "graph/planner.h"
 #include "laws/random_graphs.h"
 
@@ -25,8 +26,10 @@ class EveryPlanner : public ::testing::TestWithParam<const Planner* (*)()> {
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner,
-                         ::testing::Values(+[]() -> const Planner* { return &reference_planner(); }));
+const Planner* reference() { return &reference_planner(); }
+const Planner* bucket() { return &bucket_planner(); }
+INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner, ::testing::Values(&reference));
+INSTANTIATE_TEST_SUITE_P(Bucket, EveryPlanner, ::testing::Values(&bucket));
 
 /// How a metric compares labels.
 std::pair<std::uint64_t, std::uint64_t> compared(Metric metric, PathLabel l) {
