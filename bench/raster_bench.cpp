@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/noise.h"
+#include "formats/document.h"
 #include "render/raster.h"
 
 namespace dstylize {
@@ -44,6 +45,22 @@ void raster_of_long_side(benchmark::State& state) {
     state.counters["Mpx/s"] =
         benchmark::Counter(double(size.count()) * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
 }
+void svg_of_the_list(benchmark::State& state) {
+    const DisplayList list = vine_like();
+    std::size_t bytes = 0;
+    for (auto _ : state) bytes = svg_document(list, {}).size();
+    state.counters["MB"] = double(bytes) * 1e-6;
+}
+
+void pdf_of_the_list(benchmark::State& state) {
+    const DisplayList list = vine_like();
+    std::size_t bytes = 0;
+    for (auto _ : state) bytes = pdf_document(list, {}).size();
+    state.counters["MB"] = double(bytes) * 1e-6;
+}
+
+BENCHMARK(svg_of_the_list)->Unit(benchmark::kMillisecond);
+BENCHMARK(pdf_of_the_list)->Unit(benchmark::kMillisecond);
 BENCHMARK(raster_of_long_side)->Arg(300)->Arg(1024)->Arg(2048)->Arg(6000)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -9,7 +9,6 @@ Branching branching(const Dendrite& d) {
     Branching out;
     out.main_child.assign(n, Branching::kNone);
     out.tips.assign(n, 0);
-    out.height.assign(n, 0);
     std::vector<float> subtree(n, 0);
     for (std::size_t i = n; i-- > 0;) {
         const auto v = std::uint32_t(i);
@@ -19,7 +18,6 @@ Branching branching(const Dendrite& d) {
         const float edge = distance(d.position_lattice[v], d.position_lattice[p]);
         subtree[p] += subtree[v] + edge;
         out.tips[p] += out.tips[v];
-        out.height[p] = std::max(out.height[p], out.height[v] + edge);
         std::uint32_t& main = out.main_child[p];
         if (main == Branching::kNone || subtree[v] >= subtree[main]) main = v;
     }

@@ -22,7 +22,6 @@ struct Branching {
     static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> main_child;  ///< kNone at tips
     std::vector<std::uint32_t> tips;        ///< tips in the node's subtree, itself included
-    std::vector<float> height;              ///< longest way to a tip, lattice steps
     std::vector<Branch> branches;           ///< parents before children
 };
 

@@ -18,8 +18,7 @@ class Noise {
     constexpr std::uint32_t bits(std::uint64_t index) const { return block(index)[0]; }
     /// Uniform in [0, 1), exact in a float's 24 bits.
     constexpr float unit(std::uint64_t index) const { return float(bits(index) >> 8) * 0x1p-24f; }
-
-  private:
+    /// All four words of the block for `index`; the counter is (index low, index high, purpose, substream).
     constexpr std::array<std::uint32_t, 4> block(std::uint64_t index) const {
         std::array<std::uint32_t, 4> c{std::uint32_t(index), std::uint32_t(index >> 32), purpose_, sub_};
         std::array<std::uint32_t, 2> k = key_;
@@ -32,6 +31,8 @@ class Noise {
         }
         return c;
     }
+
+  private:
     std::array<std::uint32_t, 2> key_;
     std::uint32_t purpose_, sub_;
 };

@@ -1,8 +1,7 @@
 #include "dendrite/graft.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "core/branching.h"
 
 namespace dstylize {
 
@@ -46,16 +45,26 @@ std::vector<Source> Growth::sources(double carry, double cost_per_step) const {
     return out;
 }
 
-Dendrite without_spurs(const Dendrite& d, float least_length) {
-    const Branching b = branching(d);
+Dendrite without_spurs(const Dendrite& d, const std::function<float(Vec2f)>& least_length) {
+    // The way to the farthest tip: at every fork the child with the longest one stays, so that what is
+    // kept never becomes shorter by what is dropped from it.
+    std::vector<float> reach(d.size(), 0);
+    std::vector<std::uint32_t> longest_child(d.size(), Dendrite::kRoot);
+    for (std::size_t i = d.size(); i-- > 0;) {
+        const auto v = std::uint32_t(i);
+        if (d.is_root(v)) continue;
+        const std::uint32_t p = d.parent[v];
+        reach[v] += distance(d.position_lattice[v], d.position_lattice[p]);
+        if (longest_child[p] == Dendrite::kRoot || reach[v] >= reach[longest_child[p]]) longest_child[p] = v;
+        reach[p] = std::max(reach[p], reach[v]);
+    }
     std::vector<bool> spur(d.size(), false);
     std::vector<std::uint32_t> kept_as(d.size(), Dendrite::kRoot);
     Dendrite out;
     for (std::uint32_t v = 0; v < d.size(); ++v) {
         if (!d.is_root(v)) {
             const std::uint32_t p = d.parent[v];
-            const float reach = b.height[v] + distance(d.position_lattice[v], d.position_lattice[p]);
-            spur[v] = spur[p] || (b.main_child[p] != v && reach < least_length);
+            spur[v] = spur[p] || (longest_child[p] != v && reach[v] < least_length(d.position_lattice[v]));
         }
         if (spur[v]) continue;
         const std::uint32_t parent = d.is_root(v) ? Dendrite::kRoot : kept_as[d.parent[v]];

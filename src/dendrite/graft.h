@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,7 +35,8 @@ class Growth {
     std::vector<std::uint32_t> index_of_;  // by lattice node
 };
 
-/// Without side branches shorter than `least_length` (lattice steps) that hang on a longer branch.
-Dendrite without_spurs(const Dendrite& dendrite, float least_length);
+/// Without the side branches that hang on a longer branch and are shorter (lattice steps) than
+/// `least_length` says at their first node.
+Dendrite without_spurs(const Dendrite& dendrite, const std::function<float(Vec2f)>& least_length);
 
 }  // namespace dstylize

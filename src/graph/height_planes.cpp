@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -46,59 +47,89 @@ struct QuantisedFlow {
 /// The steps of one stored plane.
 struct Plane {
     Step step;
-    std::uint32_t factor;     // of the step, kPoint
-    std::int32_t cos2, sin2;  // of twice the step's angle, kAnglePoint
+    std::uint16_t factor;     // of the step, kPoint
+    std::int16_t cos2, sin2;  // of twice the step's angle, kAnglePoint
     Plane(Step s, float step_factor) : step(s) {
         const int squared = s.dx * s.dx + s.dy * s.dy, one = 1 << kAnglePoint;
-        cos2 = (s.dx * s.dx - s.dy * s.dy) * one / squared;
-        sin2 = 2 * s.dx * s.dy * one / squared;
+        cos2 = std::int16_t((s.dx * s.dx - s.dy * s.dy) * one / squared);
+        sin2 = std::int16_t(2 * s.dx * s.dy * one / squared);
         assert(step_factor > 0);
-        factor = std::uint32_t(rounded(std::min(step_factor, DirectionalCost::kLargestFactor) * (1 << kPoint)));
+        factor = std::uint16_t(rounded(std::min(step_factor, DirectionalCost::kLargestFactor) * (1 << kPoint)));
     }
 };
 
-/// One row of one plane. Compile-time flags keep the loop free of branches, so that it is vectorised.
-template <bool kKnight, bool kFlow>
+/// A piece of a row: short enough for buffers on the stack, which the compiler knows not to overlap with
+/// anything, so that it vectorises the loops without asking.
+constexpr int kPiece = 512;
+using Piece = std::array<std::uint16_t, kPiece>;
+
+std::uint16_t saturated(std::uint32_t x) { return std::uint16_t(std::min(x, kLargestHeight)); }
+
+/// Base heights of `count` edges, 0 where there is none, from the weights of the nodes they touch.
+void fill_base(const NodeWeight* u, const NodeWeight* v, int count, Piece& base) {
+    for (std::size_t i = 0; i < std::size_t(count); ++i) {
+        const bool exists = (u[i] != kImpassable) & (v[i] != kImpassable);
+        base[i] = exists ? saturated(std::uint32_t(u[i]) + v[i]) : std::uint16_t{0};
+    }
+}
+void fill_base(const NodeWeight* u, const NodeWeight* v, const NodeWeight* a, const NodeWeight* b, int count,
+               Piece& base) {
+    for (std::size_t i = 0; i < std::size_t(count); ++i) {
+        const bool exists =
+            (u[i] != kImpassable) & (v[i] != kImpassable) & (a[i] != kImpassable) & (b[i] != kImpassable);
+        const std::uint32_t sum = std::uint32_t(u[i]) + v[i] + a[i] + b[i];
+        base[i] = exists ? saturated(sum / 2) : std::uint16_t{0};
+    }
+}
+
+/// Products of 16-bit numbers throughout: those every vector unit multiplies well. Sums of two quantised
+/// components stay within 16 bits.
+void fill_factor(const QuantisedFlow& flow, const Plane& p, std::ptrdiff_t u, std::ptrdiff_t v, int count,
+                 Piece& factor) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const auto coherence = std::int16_t(flow.coherence[u + i] + flow.coherence[v + i]);
+        const auto cos2 = std::int16_t(flow.cos2[u + i] + flow.cos2[v + i]);
+        const auto sin2 = std::int16_t(flow.sin2[u + i] + flow.sin2[v + i]);
+        const std::int32_t across =
+            std::int32_t(coherence) * (1 << kAnglePoint) - std::int32_t(cos2) * p.cos2 - std::int32_t(sin2) * p.sin2;
+        // Rounding can leave it a hair below 0.
+        const std::int32_t extra = (std::max(across, 0) + (1 << (kAnglePoint - 1))) >> kAnglePoint;
+        factor[std::size_t(i)] = std::uint16_t(extra + (1 << kPoint));
+    }
+    if (p.factor == 1 << kPoint) return;
+    for (std::size_t i = 0; i < std::size_t(count); ++i)
+        factor[i] = saturated((std::uint32_t(factor[i]) * p.factor) >> kPoint);
+}
+
+void fill_heights(const Piece& base, const Piece& factor, int count, std::uint16_t* height) {
+    for (std::size_t i = 0; i < std::size_t(count); ++i) {
+        const std::uint32_t product = (std::uint32_t(base[i]) * factor[i] + (1 << (kPoint - 1))) >> kPoint;
+        const std::uint16_t present = base[i] != 0;
+        height[i] = std::max(saturated(product), present);
+    }
+}
+
 void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const Plane& p, int row, std::uint16_t* plane) {
     const Extent e = g.lattice.extent();
     const int dx = p.step.dx, dy = p.step.dy;
     if (row + dy < 0 || row + dy >= e.y) return;
-    const int first = std::max(0, -dx), count = std::min(e.x, e.x - dx) - first;
-    const std::ptrdiff_t u = std::ptrdiff_t(row) * e.x + first, uv = std::ptrdiff_t(dy) * e.x + dx, v = u + uv;
-    std::ptrdiff_t a = u, b = u;
-    if constexpr (kKnight) {
-        const auto [p0, p1] = passed_between(p.step);
-        a = u + std::ptrdiff_t(p0.dy) * e.x + p0.dx;
-        b = u + std::ptrdiff_t(p1.dy) * e.x + p1.dx;
-    }
-    const std::uint16_t* const w = g.weight.data();
-    std::uint16_t* const out = plane + u;
-    for (int i = 0; i < count; ++i) {
-        std::uint32_t base = std::uint32_t(w[u + i]) + w[v + i];
-        bool exists = (w[u + i] != kImpassable) & (w[v + i] != kImpassable);
-        if constexpr (kKnight) {
-            base = (base + w[a + i] + w[b + i]) / 2;
-            exists &= (w[a + i] != kImpassable) & (w[b + i] != kImpassable);
+    const int first = std::max(0, -dx), end = std::min(e.x, e.x - dx);
+    const auto away = [&](Offset o) { return std::ptrdiff_t(o.dy) * e.x + o.dx; };
+    Piece base, factor;
+    factor.fill(p.factor);
+    for (int i = first; i < end; i += kPiece) {
+        const int count = std::min(kPiece, end - i);
+        const std::ptrdiff_t u = std::ptrdiff_t(row) * e.x + i, v = u + away({dx, dy});
+        const NodeWeight* const w = g.weight.data() + u;
+        if (is_knights_move(p.step)) {
+            const auto [a, b] = passed_between(p.step);
+            fill_base(w, w + (v - u), w + away(a), w + away(b), count, base);
+        } else {
+            fill_base(w, w + (v - u), count, base);
         }
-        std::uint32_t factor = p.factor;
-        if constexpr (kFlow) {
-            const std::int32_t across =
-                (std::int32_t(flow.coherence[u + i]) + flow.coherence[v + i]) * (1 << kAnglePoint) -
-                (std::int32_t(flow.cos2[u + i]) + flow.cos2[v + i]) * p.cos2 -
-                (std::int32_t(flow.sin2[u + i]) + flow.sin2[v + i]) * p.sin2;
-            // Rounding can leave `across` a hair below 0.
-            const std::int32_t extra = (std::max(across, 0) + (1 << (kAnglePoint - 1))) >> kAnglePoint;
-            factor = std::min((std::uint32_t(extra + (1 << kPoint)) * p.factor) >> kPoint, kLargestHeight);
-        }
-        const std::uint32_t height = (std::min(base, kLargestHeight) * factor + (1 << (kPoint - 1))) >> kPoint;
-        out[i] = exists ? std::uint16_t(std::clamp(height, 1u, kLargestHeight)) : std::uint16_t{0};
+        if (!flow.coherence.empty()) fill_factor(flow, p, u, v, count, factor);
+        fill_heights(base, factor, count, plane + u);
     }
-}
-
-using FillRow = void (*)(const WeightedLattice&, const QuantisedFlow&, const Plane&, int, std::uint16_t*);
-FillRow row_filler(bool knight, bool flow) {
-    if (knight) return flow ? fill_row<true, true> : fill_row<true, false>;
-    return flow ? fill_row<false, true> : fill_row<false, false>;
 }
 
 bool opposite_steps_are_equal(const std::vector<float>& factor) {
@@ -137,8 +168,7 @@ void build_height_planes(WeightedLattice& g, const DirectionalCost& cost, const 
         tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t p) {
             std::vector<std::uint16_t>& plane = g.height_plane[p];
             plane.assign(g.weight.size(), 0);
-            const FillRow fill = row_filler(is_knights_move(planes[p].step), has_flow);
-            tbb::parallel_for(0, g.lattice.extent().y, [&](int j) { fill(g, flow, planes[p], j, plane.data()); });
+            tbb::parallel_for(0, g.lattice.extent().y, [&](int j) { fill_row(g, flow, planes[p], j, plane.data()); });
         });
     });
     work.check();

@@ -55,7 +55,7 @@ struct LexicographicOrder {
     Rank rank(PathLabel, const PathEdge& e) const { return e.to == kNoNode ? Rank{} : Rank{e.height, edge_index(e)}; }
     /// Edges are counted by their smaller node, then by their larger one, whichever way they are walked.
     static std::uint64_t edge_index(const PathEdge& e) {
-        const auto [a, b] = std::minmax(index(e.from), index(e.to));
+        const std::uint32_t a = std::min(index(e.from), index(e.to)), b = std::max(index(e.from), index(e.to));
         return std::uint64_t(a) << 32 | b;
     }
 };

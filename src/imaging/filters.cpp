@@ -14,17 +14,6 @@ cv::Mat mat(const Grid<float>& g) {
 }
 Grid<float> like(const Grid<float>& g) { return Grid<float>(g.extent()); }
 
-/// The picture seen as a float plane computed pixel by pixel, then brought to the lattice.
-template <class PixelValue>
-Grid<float> plane_on_lattice(const Picture& picture, Extent lattice, PixelValue value) {
-    Grid<float> full(picture.extent());
-    std::transform(picture.begin(), picture.end(), full.begin(), value);
-    if (full.extent() == lattice) return full;
-    Grid<float> out = resized(full, lattice);
-    transform(out, [](float v) { return std::clamp(v, 0.0f, 1.0f); });
-    return out;
-}
-
 constexpr int kBins = 65536;
 struct Histogram {
     float lo = 0, scale = 0;
@@ -43,10 +32,33 @@ Histogram histogram(const Grid<float>& field) {
 }  // namespace
 
 Grid<float> resized(const Grid<float>& field, Extent extent) {
+    if (field.extent() == extent) return field;
     Grid<float> out(extent);
     cv::Mat target = mat(out);
     const bool grows = extent.x > field.extent().x || extent.y > field.extent().y;
     cv::resize(mat(field), target, target.size(), 0, 0, grows ? cv::INTER_CUBIC : cv::INTER_AREA);
+    if (grows) {  // cubic interpolation overshoots
+        const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
+        transform(out, [lo = *lo, hi = *hi](float v) { return std::clamp(v, lo, hi); });
+    }
+    return out;
+}
+
+Picture resized(const Picture& picture, Extent extent) {
+    if (picture.extent() == extent) return picture;
+    const auto scaled = [](int channel, int factor, int divisor) {
+        return std::uint8_t(std::min(255, (channel * factor + divisor / 2) / divisor));
+    };
+    Picture source = picture;  // premultiplied while it is filtered
+    for (Rgba8& p : source)
+        if (p.a < 255) p = {scaled(p.r, p.a, 255), scaled(p.g, p.a, 255), scaled(p.b, p.a, 255), p.a};
+    Picture out(extent);
+    const cv::Mat from(source.extent().y, source.extent().x, CV_8UC4, source.data());
+    cv::Mat to(extent.y, extent.x, CV_8UC4, out.data());
+    const bool grows = extent.x > source.extent().x || extent.y > source.extent().y;
+    cv::resize(from, to, to.size(), 0, 0, grows ? cv::INTER_CUBIC : cv::INTER_AREA);
+    for (Rgba8& p : out)
+        if (p.a > 0 && p.a < 255) p = {scaled(p.r, 255, p.a), scaled(p.g, 255, p.a), scaled(p.b, 255, p.a), p.a};
     return out;
 }
 
@@ -104,15 +116,19 @@ Grid<float> rank(const Grid<float>& field) {
     return out;
 }
 
-Grid<float> luma_on_lattice(const Picture& picture, Extent lattice) {
-    return plane_on_lattice(picture, lattice, [](Rgba8 p) {
-        const float a = float(p.a) / 255, y = luma({p.r / 255.0f, p.g / 255.0f, p.b / 255.0f, 1});
+Grid<float> luma_plane(const Picture& picture) {
+    Grid<float> out(picture.extent());
+    std::transform(picture.begin(), picture.end(), out.begin(), [](Rgba8 p) {
+        const float a = float(p.a) / 255, y = luma({float(p.r) / 255, float(p.g) / 255, float(p.b) / 255, 1});
         return 1 - a * (1 - y);
     });
+    return out;
 }
 
-Grid<float> alpha_on_lattice(const Picture& picture, Extent lattice) {
-    return plane_on_lattice(picture, lattice, [](Rgba8 p) { return float(p.a) / 255; });
+Grid<float> alpha_plane(const Picture& picture) {
+    Grid<float> out(picture.extent());
+    std::transform(picture.begin(), picture.end(), out.begin(), [](Rgba8 p) { return float(p.a) / 255; });
+    return out;
 }
 
 }  // namespace dstylize

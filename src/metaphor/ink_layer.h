@@ -7,7 +7,7 @@ namespace dstylize {
 struct InkParameters {
     Rgba ink{0x20 / 255.0f, 0x26 / 255.0f, 0x1a / 255.0f, 1};
     Rgba paper{0xf5 / 255.0f, 0xef / 255.0f, 0xe0 / 255.0f, 1};
-    float grain = 0.02f;
+    float grain = 0.004f;
 
     void visit(ParameterVisitor& visitor);
 };

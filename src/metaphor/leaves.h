@@ -6,7 +6,7 @@ namespace dstylize {
 /// Leaves in calm, bright parts of the picture: the [vine] table's `leaf_…` keys. Lengths in u.
 struct LeafParameters {
     bool grow = true;
-    float size = 13, aspect = 0.36f, gap = 1.2f;
+    float size = 15.5f, aspect = 0.36f, gap = 1.2f;
     float spacing = 10;
     float angle_deg = 51;
     float stem = 2.2f;

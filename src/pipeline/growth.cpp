@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
+#include "core/sampling.h"
 #include "dendrite/graft.h"
+#include "graph/bucket_planner.h"
 #include "graph/graph_distance.h"
 #include "graph/height_planes.h"
 #include "imaging/filters.h"
@@ -110,6 +111,16 @@ std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& g
     return out;
 }
 
+/// How short a side branch may be, in lattice steps: dark areas need short ones for their tone, in
+/// light ones they are thorns.
+std::function<float(Vec2f)> spur_length(Fields& fields, const StrokeParameters& p) {
+    const float dark = p.drop_spurs * fields.u(), light = p.drop_spurs_light * fields.u();
+    if (dark == light) return [dark](Vec2f) { return dark; };
+    return [tone = blurred(fields["tone"], 4 * fields.u()), dark, light](Vec2f at) {
+        return light + (dark - light) * smoothstep(0.1f, 0.6f, sample(tone, at));
+    };
+}
+
 }  // namespace
 
 Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
@@ -133,13 +144,13 @@ Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& styl
             endpoints = discs(fields, passable, stage.endpoints, growth.dendrite(), controls.seed, std::uint32_t(s));
         work.report(stage.name + ": paths", (0.4 + double(s)) / (double(style.stages.size()) + 1));
         const std::vector<Source> sources = stage_sources(growth, graph, stage);
-        const Plan plan = reference_planner().plan(
+        const Plan plan = bucket_planner().plan(
             {graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
         if (observer) observer({stage, graph, plan, endpoints});
         out.endpoints.push_back(endpoints.size());
         out.unreached += growth.graft(plan, endpoints, std::uint8_t(s));
     }
-    out.dendrite = without_spurs(growth.dendrite(), style.stroke.drop_spurs * fields.u());
+    out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));
     return out;
 }
 

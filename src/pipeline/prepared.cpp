@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "imaging/filters.h"
+#include "importance/frame.h"
 #include "pipeline/stylize.h"
 
 namespace dstylize {
@@ -10,9 +11,9 @@ namespace {
 
 Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls, Extent lattice) {
     constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
-    const Grid<float> alpha = alpha_on_lattice(picture, lattice);
+    const Grid<float> alpha = resized(alpha_plane(picture), lattice);
     Grid<float> mask;
-    if (controls.mask) mask = luma_on_lattice(*controls.mask, lattice);
+    if (controls.mask) mask = resized(luma_plane(*controls.mask), lattice);
     const int short_side = std::min(lattice.x, lattice.y);
     const int margin = int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
     Grid<std::uint8_t> out(lattice);
@@ -33,9 +34,11 @@ Extent lattice_extent(Extent picture, int detail) {
 Prepared prepared(const Picture& picture, const Style& style, const Controls& controls) {
     const Extent lattice = lattice_extent(picture.extent(), style.lattice.detail);
     UserMaps maps;
-    if (controls.importance) maps.importance = luma_on_lattice(*controls.importance, lattice);
+    if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), lattice);
     maps.importance_replaces = controls.importance_replaces;
-    return {Fields(luma_on_lattice(picture, lattice), style.fields, std::move(maps), controls.seed),
+    Grid<float> luma = luma_plane(picture);
+    paint_over_frame(luma);
+    return {Fields(resized(luma, lattice), style.fields, std::move(maps), controls.seed),
             passable_nodes(picture, style, controls, lattice)};
 }
 

@@ -28,13 +28,13 @@ struct Reader final : ParameterVisitor {
     const std::string& origin;
     std::vector<std::string> known;
 
-    [[noreturn]] void fail(const toml::node* node, const std::string& problem, const std::string& remedy) const {
+    [[noreturn]] void fail(const toml::source_region& at, const std::string& problem, const std::string& remedy) const {
         std::string where = origin;
-        if (node && node->source().begin.line > 0) {
-            const auto& from = node->source();
-            where = fmt::format("{}:{}:{}", from.path ? *from.path : origin, from.begin.line, from.begin.column);
-        }
+        if (at.begin.line > 0) where = fmt::format("{}:{}:{}", at.path ? *at.path : origin, at.begin.line, at.begin.column);
         throw Error(ErrorCode::bad_usage, where, problem, remedy);
+    }
+    [[noreturn]] void fail(const toml::node* node, const std::string& problem, const std::string& remedy) const {
+        fail(node ? node->source() : toml::source_region{}, problem, remedy);
     }
     std::string full(std::string_view key) const { return path.empty() ? std::string(key) : path + "." + std::string(key); }
     toml::node* find(std::string_view key) {
@@ -128,7 +128,7 @@ struct Reader final : ParameterVisitor {
         for (auto&& [key, node] : table) {
             if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
             const std::string near = nearest_name(key.str(), known);
-            fail(&node, "unknown key '" + full(key.str()) + "'",
+            fail(key.source(), "unknown key '" + full(key.str()) + "'",
                  near.empty() ? "`dstylize styles NAME` lists every key" : "did you mean '" + full(near) + "'?");
         }
     }
@@ -158,20 +158,21 @@ toml::table* find_stage(toml::table& tree, std::string_view name) {
     return nullptr;
 }
 
-/// `over` on top of `base`, tables key by key, stages by name.
-void merge(toml::table& base, const toml::table& over) {
+/// `over` on top of `base`, tables key by key, stages by name. Nodes are moved: a copy forgets the line
+/// that it came from.
+void merge(toml::table& base, toml::table&& over) {
     for (auto&& [key, node] : over) {
         toml::node* below = base.get(key);
         if (key == "stage" && below && below->is_array() && node.is_array()) {
-            for (const toml::node& stage : *node.as_array()) {
+            for (toml::node& stage : *node.as_array()) {
                 toml::table* same = find_stage(base, stage_name(stage));
-                if (same && stage.is_table()) merge(*same, *stage.as_table());
-                else below->as_array()->push_back(stage);
+                if (same && stage.is_table()) merge(*same, std::move(*stage.as_table()));
+                else stage.visit([&](auto& value) { below->as_array()->push_back(std::move(value)); });
             }
         } else if (below && below->is_table() && node.is_table()) {
-            merge(*below->as_table(), *node.as_table());
+            merge(*below->as_table(), std::move(*node.as_table()));
         } else {
-            base.insert_or_assign(key, node);
+            node.visit([&, name = key.str()](auto& value) { base.insert_or_assign(name, std::move(value)); });
         }
     }
 }
@@ -200,7 +201,7 @@ std::string style_text(const std::string& name_or_file, std::string& origin) {
     return text.str();
 }
 
-toml::table resolved(const toml::table& own, const std::string& origin, int depth) {
+toml::table resolved(toml::table own, const std::string& origin, int depth) {
     const std::string base_name = own["style"]["extends"].value_or(std::string());
     if (base_name.empty()) return own;
     if (depth >= kMostExtends)
@@ -208,7 +209,7 @@ toml::table resolved(const toml::table& own, const std::string& origin, int dept
     std::string base_origin;
     const std::string text = style_text(base_name, base_origin);
     toml::table tree = resolved(parsed(text, base_origin), base_origin, depth + 1);
-    merge(tree, own);
+    merge(tree, std::move(own));
     return tree;
 }
 
@@ -273,6 +274,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings) {
     toml::table tree = resolved(parsed(text, origin), origin, 0);
+    if (tree["recipe"].is_table()) tree.erase("recipe");  // a recipe is a style file too
     for (const Setting& setting : settings) apply(tree, setting);
 
     Style style;

@@ -19,8 +19,9 @@ class AreaSums {
         const float sign = a.y < b.y ? 1.0f : -1.0f;
         if (a.y > b.y) std::swap(a, b);
         const float slope = (b.x - a.x) / (b.y - a.y);
-        const int first = int(std::max(0.0f, std::floor(a.y)));
-        const int last = int(std::min(float(height_), std::ceil(b.y)));
+        const float height = float(height_);
+        const int first = int(std::clamp(std::floor(a.y), 0.0f, height));
+        const int last = int(std::clamp(std::ceil(b.y), 0.0f, height));
         for (int y = first; y < last; ++y) {
             const float top = std::max(a.y, float(y)), bottom = std::min(b.y, float(y + 1));
             if (top >= bottom) continue;
@@ -68,7 +69,7 @@ class AreaSums {
 
 }  // namespace
 
-void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::uint32_t item,
+void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::uint32_t colour,
                    std::vector<float>& scratch) {
     if (outline.size() < 3) return;
     Vec2f lo = outline[0] - plane.origin, hi = lo;
@@ -89,14 +90,14 @@ void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::ui
     for (int y = y0; y < y1; ++y) {
         const float* row = sums.row(y - y0);
         float* coverage = plane.coverage_row(y);
-        std::uint32_t* winner = plane.item_row(y);
+        std::uint32_t* winner = plane.colour_row(y);
         float sum = 0;
         for (int x = x0; x < x1; ++x) {
             sum += row[x - x0];
             const float covered = std::min(std::abs(sum), 1.0f);
             if (covered < coverage[x] || covered <= kLeastCoverage) continue;
             coverage[x] = covered;
-            winner[x] = item;
+            winner[x] = colour;
         }
     }
     plane.dirty.include(x0, y0, x1, y1);

@@ -11,7 +11,7 @@ namespace dstylize {
 struct StrokeParameters {
     float smooth = 18;
     float junction = 5;
-    float drop_spurs = 4;
+    float drop_spurs = 4, drop_spurs_light = 4;
 
     void visit(ParameterVisitor& visitor);
 };

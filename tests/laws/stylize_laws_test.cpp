@@ -1,0 +1,153 @@
+// What every drawing owes, whatever the style: it is a forest, connected, inside its mask, the same for
+// any number of threads, and coarse and fine agree.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.h"
+#include "imaging/filters.h"
+#include "pipeline/style_file.h"
+#include "pipeline/stylize.h"
+#include "render/raster.h"
+#include "support/scenes.h"
+
+namespace dstylize {
+namespace {
+
+class EveryStyle : public ::testing::TestWithParam<std::string> {
+  protected:
+    static Style style(int detail = 200) { return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}}); }
+    static Drawing drawing(const Picture& picture, const Controls& controls = {}, int threads = 0) {
+        Work work;
+        work.threads = threads;
+        return stylize(picture, style(), controls, work);
+    }
+};
+std::vector<std::string> all_styles() {
+    std::vector<std::string> names;
+    for (const BuiltinStyle& style : builtin_styles()) names.emplace_back(style.name);
+    return names;
+}
+INSTANTIATE_TEST_SUITE_P(Builtin, EveryStyle, ::testing::ValuesIn(all_styles()));
+
+TEST_P(EveryStyle, DrawsAForestWithWidths) {
+    const Drawing d = drawing(test::scene({160, 120}));
+    EXPECT_EQ(first_fault(d.dendrite), "");
+    EXPECT_EQ(d.width_u.size(), d.dendrite.size());
+    EXPECT_EQ(d.unreached, 0u);
+    EXPECT_GT(d.strokes, 20u);
+    for (const float w : d.width_u) ASSERT_TRUE(std::isfinite(w) && w > 0);
+}
+
+TEST_P(EveryStyle, IsTheSameForAnyNumberOfThreads) {
+    const Picture picture = test::scene({160, 120});
+    const Drawing one = drawing(picture, {}, 1), three = drawing(picture, {}, 3);
+    EXPECT_EQ(one.dendrite.node, three.dendrite.node);
+    EXPECT_EQ(one.dendrite.position_lattice, three.dendrite.position_lattice);
+    EXPECT_EQ(one.width_u, three.width_u);
+    EXPECT_EQ(raster(one.list, {{160, 120}}, {}), raster(three.list, {{160, 120}}, {}));
+}
+
+TEST_P(EveryStyle, SeedsDiffer) {
+    const Picture picture = test::scene({160, 120});
+    Controls other;
+    other.seed = 2;
+    EXPECT_NE(drawing(picture).dendrite.node, drawing(picture, other).dendrite.node);
+}
+
+TEST_P(EveryStyle, TheMaskIsRespectedAndEveryPartHasItsRoot) {
+    Controls controls;
+    controls.mask = test::flat({160, 120}, {0, 0, 0, 255});
+    for (int j = 10; j < 110; ++j)
+        for (int i = 10; i < 150; ++i)
+            if (i < 70 || i > 90) (*controls.mask)(i, j) = {255, 255, 255, 255};
+    const Drawing d = drawing(test::scene({160, 120}), controls);
+    std::set<std::uint32_t> sides;
+    for (std::uint32_t v = 0; v < d.dendrite.size(); ++v) {
+        const float x = float(index(d.dendrite.node[v]) % std::uint32_t(d.lattice.x)) / float(d.lattice.x) * 160;
+        ASSERT_TRUE(x < 71 || x > 89) << x;
+        if (d.dendrite.is_root(v)) sides.insert(x < 80);
+    }
+    EXPECT_EQ(sides.size(), 2u) << "one root per connected part";
+}
+
+TEST_P(EveryStyle, RootsAreWhereTheUserPutsThem) {
+    Controls controls;
+    controls.roots = {{{}, {0.25, true}, {0.5, true}}, {RootParameters::Place::top, {}, {}}};
+    const Drawing d = drawing(test::scene({160, 120}), controls);
+    std::vector<Vec2f> roots;
+    for (std::uint32_t v = 0; v < d.dendrite.size(); ++v)
+        if (d.dendrite.is_root(v)) roots.push_back(d.dendrite.position_lattice[v]);
+    ASSERT_EQ(roots.size(), 2u);
+    EXPECT_LT(distance(roots[0], {50, 75}), 12);
+    EXPECT_LT(roots[1].y, 20);
+}
+
+TEST_P(EveryStyle, BadRootsAreRefused) {
+    Controls outside, masked;
+    outside.roots = {{{}, {500, false}, {5, false}}};
+    EXPECT_THROW(drawing(test::scene({160, 120}), outside), Error);
+    masked.roots = {{{}, {0.5, true}, {0.5, true}}};
+    masked.mask = test::scene({160, 120});  // dark in the middle: nothing may grow there
+    (*masked.mask)(80, 66) = {0, 0, 0, 255};
+    EXPECT_THROW(drawing(test::scene({160, 120}), masked), Error);
+}
+
+TEST_P(EveryStyle, GivenEndpointsAreTheOnlyOnes) {
+    Controls controls;
+    controls.endpoints = {{{0.2, true}, {0.3, true}, ""}, {{0.8, true}, {0.3, true}, ""}};
+    const Drawing d = drawing(test::scene({160, 120}), controls);
+    EXPECT_EQ(d.endpoints[0], 2u);
+    EXPECT_LE(d.strokes, 2u);
+}
+
+TEST_P(EveryStyle, OddPicturesGiveADrawingOrAnError) {
+    for (const Extent size : {Extent{1, 1}, Extent{1, 400}, Extent{400, 1}, Extent{3, 2}}) {
+        const Drawing d = drawing(test::scene(size));
+        EXPECT_EQ(first_fault(d.dendrite), "") << size.x << "x" << size.y;
+    }
+    for (const std::uint8_t v : {0, 128, 255}) EXPECT_EQ(first_fault(drawing(test::flat({50, 50}, {v, v, v, 255})).dendrite), "");
+    EXPECT_THROW(drawing(test::flat({50, 50}, {9, 9, 9, 0})), Error);
+    Controls black;
+    black.mask = test::flat({5, 5}, {0, 0, 0, 255});
+    EXPECT_THROW(drawing(test::scene({160, 120}), black), Error);
+}
+
+TEST_P(EveryStyle, HalfTheDetailIsAnHonestPreview) {
+    const Picture picture = test::scene({320, 240});
+    const auto tone = [&](int detail) {
+        const Drawing d = stylize(picture, style(detail), {});
+        return blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 0.02f * 320);
+    };
+    const Grid<float> full = tone(640), half = tone(320);
+    double mf = 0, mh = 0, fh = 0, ff = 0, hh = 0;
+    for (std::size_t n = 0; n < full.size(); ++n) mf += full[n], mh += half[n];
+    mf /= double(full.size()), mh /= double(half.size());
+    for (std::size_t n = 0; n < full.size(); ++n)
+        fh += (full[n] - mf) * (half[n] - mh), ff += (full[n] - mf) * (full[n] - mf), hh += (half[n] - mh) * (half[n] - mh);
+    EXPECT_GT(fh / std::sqrt(ff * hh), 0.9);
+}
+
+TEST_P(EveryStyle, EveryIntermediateCanBeShown) {
+    const Picture picture = test::scene({120, 90});
+    const Style s = style(100);
+    for (const std::string& name : shown_names(s)) {
+        const Picture p = shown(name, picture, s, {});
+        EXPECT_EQ(p.extent(), (Extent{100, 75})) << name;
+    }
+    EXPECT_THROW(shown("nothing", picture, s, {}), Error);
+}
+
+TEST(Vine, TheDrawnToneFollowsThePicture) {
+    const Picture picture = test::scene({320, 240});
+    const Drawing d = stylize(picture, load_style("vine", {{"lattice.detail", "640"}}), {});
+    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 8), wanted = blurred(luma_plane(picture), 8);
+    EXPECT_LT(drawn(110, 130), 0.45f) << "the dark side of the disc";
+    EXPECT_GT(drawn(40, 200), 0.8f) << "the calm ground";
+    EXPECT_GT(wanted(40, 200) - wanted(110, 130), 0.5f);
+}
+
+}  // namespace
+}  // namespace dstylize

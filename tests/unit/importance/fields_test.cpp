@@ -1,0 +1,137 @@
+#include "importance/fields.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "imaging/filters.h"
+#include "importance/frame.h"
+#include "support/scenes.h"
+
+namespace dstylize {
+namespace {
+
+Fields fields_of(const Picture& picture, Extent lattice, FieldParameters p = {}, UserMaps maps = {}) {
+    return Fields(resized(luma_plane(picture), lattice), p, std::move(maps), 1);
+}
+
+double correlation(const Grid<float>& a, const Grid<float>& b) {
+    double ma = 0, mb = 0, ab = 0, aa = 0, bb = 0;
+    for (std::size_t n = 0; n < a.size(); ++n) ma += a[n], mb += b[n];
+    ma /= double(a.size()), mb /= double(b.size());
+    for (std::size_t n = 0; n < a.size(); ++n)
+        ab += (a[n] - ma) * (b[n] - mb), aa += (a[n] - ma) * (a[n] - ma), bb += (b[n] - mb) * (b[n] - mb);
+    return ab / std::sqrt(aa * bb);
+}
+
+TEST(Fields, EveryFieldLiesInTheUnitRange) {
+    Fields fields = fields_of(test::scene({200, 150}), {256, 192});
+    for (const std::string_view name : Fields::names()) {
+        const Grid<float>& f = fields[name];
+        ASSERT_EQ(f.extent(), (Extent{256, 192})) << name;
+        for (const float v : f) ASSERT_TRUE(v >= 0 && v <= 1) << name << " " << v;
+    }
+}
+
+TEST(Fields, FlatPicturesHaveNoGradientAndNoNotANumber) {
+    for (const std::uint8_t level : {0, 128, 255}) {
+        Fields fields = fields_of(test::flat({40, 30}, {level, level, level, 255}), {64, 48});
+        for (const float v : fields["gradient"]) ASSERT_EQ(v, 0);
+        for (const std::string_view name : Fields::names())
+            for (const float v : fields[name]) ASSERT_TRUE(std::isfinite(v)) << name;
+    }
+}
+
+TEST(Fields, ImportanceIsThreePartsGradientAndOnePartDarkness) {
+    FieldParameters p;
+    p.tone_equalise = 0, p.tone_white = 0, p.tone_black = 1, p.importance_lines = 0, p.importance_percentile = 100;
+    p.border_width = 1;
+    Fields fields = fields_of(test::scene({200, 150}), {200, 150}, p);
+    const Grid<float>&g = fields["gradient"], &d = fields["darkness"], &i = fields["importance"];
+    for (int y = 20; y < 130; ++y)
+        for (int x = 20; x < 180; ++x) ASSERT_NEAR(i(x, y), (3 * g(x, y) + d(x, y)) / 4, 1e-5f);
+}
+
+TEST(Fields, NoiseIsKeyedByPicturePosition) {
+    const Picture picture = test::scene({512, 384});
+    Fields coarse = fields_of(picture, {512, 384}), fine = fields_of(picture, {1024, 768});
+    const Grid<float> halved = resized(fine["smooth_noise"], {512, 384});
+    EXPECT_GT(correlation(coarse["smooth_noise"], halved), 0.95);
+}
+
+TEST(Fields, WhiteNoiseIsUniform) {
+    Fields fields = fields_of(test::scene({64, 64}), {512, 512});
+    double sum = 0, squares = 0;
+    for (const float v : fields["white_noise"]) sum += v, squares += double(v) * v;
+    const double n = 512 * 512;
+    EXPECT_NEAR(sum / n, 0.5, 0.005);
+    EXPECT_NEAR(squares / n - (sum / n) * (sum / n), 1.0 / 12, 0.002);
+}
+
+TEST(Fields, FlowRunsAlongStripes) {
+    Picture stripes({256, 256});
+    for (int j = 0; j < 256; ++j)
+        for (int i = 0; i < 256; ++i) {
+            const auto v = std::uint8_t(127 + 120 * std::sin(0.2 * (i + j)));  // lines along (1, -1)
+            stripes(i, j) = {v, v, v, 255};
+        }
+    Fields fields = fields_of(stripes, {256, 256});
+    const Vec2f along = normalized(Vec2f{1, -1});
+    for (int y = 40; y < 216; y += 8)
+        for (int x = 40; x < 216; x += 8) {
+            const Vec2f f = fields.flow()(x, y);
+            ASSERT_GT(length(f), 0.5f);
+            ASSERT_GT(std::abs(dot(normalized(f), along)), 0.98f);
+        }
+}
+
+TEST(Fields, UserMapsMultiplyOrReplace) {
+    const Picture picture = test::scene({100, 80});
+    const Extent e{128, 102};
+    UserMaps zero{Grid<float>(e, 0.0f), false}, half{Grid<float>(e, 0.5f), true};
+    Fields none = fields_of(picture, e, {}, zero), replaced = fields_of(picture, e, {}, half);
+    for (const float v : none["importance"]) ASSERT_EQ(v, 0);
+    for (const float v : replaced["importance"]) ASSERT_EQ(v, 0.5f);
+}
+
+TEST(Fields, UnknownNameIsAnError) {
+    Fields fields = fields_of(test::scene({16, 16}), {16, 16});
+    EXPECT_THROW(fields["importnace"], Error);
+}
+
+TEST(FlatFrame, IsFoundAndPaintedOver) {
+    Picture picture = test::scene({300, 200});
+    for (int j = 0; j < 200; ++j)
+        for (int i = 0; i < 4; ++i) picture(i, j) = {90, 90, 90, 255};
+    Grid<float> luma = luma_plane(picture);
+    const Frame frame = flat_frame(luma);
+    EXPECT_GE(frame.left, 4);
+    EXPECT_LE(frame.left, 8);
+    paint_over_frame(luma);
+    for (int j = 10; j < 190; ++j) ASSERT_FLOAT_EQ(luma(0, j), luma(frame.left, j));
+}
+
+TEST(FlatFrame, AFlatBackgroundIsNoFrame) {
+    EXPECT_EQ(flat_frame(luma_plane(test::flat({300, 200}, {255, 255, 255, 255}))), Frame{});
+}
+
+TEST(Filters, WideBlurOnAReducedCopyMeetsTheFullOne) {
+    Fields fields = fields_of(test::scene({300, 200}), {300, 200});
+    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7), wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
+    float worst = 0;
+    for (std::size_t n = 0; n < wide.size(); ++n) worst = std::max(worst, std::abs(direct[n] - wide[n]));
+    EXPECT_LT(worst, 0.03f);
+}
+
+TEST(Filters, RankAndPercentileAgree) {
+    Grid<float> ramp({100, 1});
+    for (int i = 0; i < 100; ++i) ramp(i, 0) = float((i * 37) % 100);
+    EXPECT_NEAR(percentile(ramp, 50), 50, 0.01f);
+    const Grid<float> r = rank(ramp);
+    for (int i = 0; i < 100; ++i) ASSERT_NEAR(r(i, 0), ramp(i, 0) / 100, 1e-6f);
+}
+
+}  // namespace
+}  // namespace dstylize
