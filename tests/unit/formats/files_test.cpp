@@ -187,9 +187,11 @@ TEST_F(Files, PipesAreReadAndWritten) {
     std::thread writer([&] { write_file_atomically(path("pipe"), bytes(text)); });
     EXPECT_EQ(read_file(path("pipe"), 2'000'000), bytes(text));
     writer.join();
-    std::thread longer([&] { std::ofstream(path("pipe")) << text; });
+    Error cut_off(ErrorCode::failed, "", "", "");
+    std::thread longer([&] { cut_off = error_of([&] { write_file_atomically(path("pipe"), bytes(text)); }); });
     EXPECT_EQ(error_of([&] { read_file(path("pipe"), 1000); }).code(), ErrorCode::cannot_read);
     longer.join();
+    EXPECT_EQ(cut_off.code(), ErrorCode::cannot_write);
 }
 
 TEST_F(Files, AReaderThatGoesAwayIsAnErrorNotASignal) {
