@@ -24,14 +24,27 @@ using OIIO::TypeDesc;
 
 Refusal cannot_encode(const std::string& details) { return Refusal("cannot be encoded (" + details + ")", "", true); }
 
+/// Whether more than half of a sample of pixels equals its left neighbour.
+bool mostly_flat(const Drawing& drawing) {
+    constexpr int kRowStep = 16;
+    const auto width = std::size_t(drawing.extent.x);
+    std::size_t equal = 0, seen = 0;
+    for (int row = 0; row < drawing.extent.y; row += kRowStep) {
+        const auto pixels = drawing.pixels.subspan(std::size_t(row) * width, width);
+        for (std::size_t i = 1; i < width; ++i) equal += pixels[i] == pixels[i - 1];
+        seen += width - 1;
+    }
+    return equal * 2 > seen;
+}
+
 ImageSpec spec_for(FileFormat format, const Drawing& drawing, const ipc::EncodeSettings& settings, int channels) {
     ImageSpec spec(drawing.extent.x, drawing.extent.y, channels, TypeDesc::UINT8);
     spec["oiio:UnassociatedAlpha"] = 1;
     if (format == FileFormat::png) {
-        // Sub-filtered rows at zlib's fastest level: measured within 10 % of the smallest of all filters
-        // at a quarter of the time of level 6.
+        // Measured on 24 megapixels at level 1: without filters, drawings are a fifth smaller than with any;
+        // photographs are a third smaller and faster with differences to the row above (libpng's 0x20).
         spec["png:compressionLevel"] = std::clamp(settings.compression, 0, 9);
-        spec["png:filter"] = 0x10;
+        spec["png:filter"] = mostly_flat(drawing) ? 0x08 : 0x20;
     } else if (format == FileFormat::jpeg) {
         spec["compression"] = "jpeg:" + std::to_string(std::clamp(settings.quality, 1, 100));
         spec["jpeg:subsampling"] = "4:4:4";

@@ -109,6 +109,14 @@ Window window_of(FileFormat format, const ImageSpec& spec) {
     return window;
 }
 
+/// A tile is held in memory for every row of tiles, whatever part of it lies in the picture.
+void check_tiles(const ImageSpec& spec) {
+    constexpr std::uint64_t kAlwaysFine = 4096 * 4096;
+    const auto tile = std::uint64_t(std::max(spec.tile_width, 0)) * std::uint64_t(std::max(spec.tile_height, 0));
+    const auto picture = std::uint64_t(spec.width) * std::uint64_t(spec.height);
+    if (tile > kAlwaysFine && tile / 4 > picture) throw damaged("its tiles are impossibly large");
+}
+
 /// Reads row by row into the sink. False when damage ended it early; throws Refusal unless that is allowed.
 bool read_all_rows(Reader& reader, const SampleLayout& layout, const PixelConverter& converter, const Window& window,
                    bool allow_damaged, PictureSink& sink) {
@@ -148,6 +156,7 @@ Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const Embed
     check_size({spec.width, spec.height}, 0, limits);
     check_size(window.extent, 0, limits);
     if (spec.depth > 1) throw Refusal("is a volume, not a picture", "give a flat picture");
+    check_tiles(spec);
     const SampleLayout layout = sample_layout(format, spec, tiff);
     const PixelConverter converter(layout, stated_transform(format, layout, spec));
     PictureSink sink(window.extent, stored_orientation(format, spec, exif));

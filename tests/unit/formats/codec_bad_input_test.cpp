@@ -128,6 +128,14 @@ TEST_F(CodecBadInput, MoreRowsPerStripThanRowsAreNoEndlessLoop) {
     EXPECT_EQ(decoded(tiff).picture(1, 1), (Rgba8{4, 4, 4}));
 }
 
+TEST_F(CodecBadInput, TilesFarLargerThanThePictureAreRefused) {
+    EXPECT_NE(
+        refusal(tiff_file({1, 500, 1, 8, 1}, std::string(500, '\7'), {tiff_long(322, 0x7ffffff0), tiff_long(323, 1)}))
+            .problem()
+            .find("tiles"),
+        std::string::npos);
+}
+
 TEST_F(CodecBadInput, DirectoriesThatPointAnywhereAreSafe) {
     std::string tiff = text_of(tiff_file({1, 1, 3, 8}, "abc"));
     for (const std::uint32_t offset : {0u, 1u, 7u, 8u, 0x7fffffffu, 0xfffffffeu, std::uint32_t(tiff.size() - 1)})
