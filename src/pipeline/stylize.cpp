@@ -74,7 +74,7 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
 
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     work.report("fields", 0);
-    Prepared base = prepared(picture, style, controls);
+    PreparedPicture base = prepared(picture, style, controls);
     Fields& fields = base.fields;
     const float u = fields.u();
     Grown grown = grow(fields, base.passable, style, controls, picture.extent(), {}, work);
