@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,9 +10,9 @@
 
 namespace dstylize {
 
-/// A centreline with its full width at every point: a branch as the renderers draw it. Between the
-/// points it is a polyline of tapered capsules (round ends and joints); points are dense enough to
-/// look smooth at the size the display list was made for.
+/// A centreline with its full width at every point: a branch as the renderers draw it. The points are knots
+/// of a smooth curve (geometry/tapered_line.h; a turn above 60 degrees stays a corner), drawn as tapered
+/// capsules with round ends and joints, so that it is smooth at any size.
 struct VariableStroke {
     std::vector<Vec2f> points_px;
     std::vector<float> width_px;  ///< one per point, full width
@@ -44,6 +45,8 @@ struct Paper {
     Rgba colour{1, 1, 1, 1};  ///< alpha 0: transparent ground
     float grain = 0;          ///< relative lightness noise (standard deviation about this), raster only
     std::uint64_t seed = 0;   ///< of the grain
+    /// In the colour's place, stretched over the frame; its transparent parts stay transparent.
+    std::shared_ptr<const Picture> picture = nullptr;
 };
 
 /// A finished drawing as vectors in the picture frame; raster, SVG and PDF all draw this one list.

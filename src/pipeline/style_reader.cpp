@@ -274,6 +274,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings) {
     toml::table tree = resolved(parsed(text, origin), origin, 0);
+    if (tree["recipe"].is_table()) tree.erase("recipe");  // a recipe is a style file too
     for (const Setting& setting : settings) apply(tree, setting);
 
     Style style;

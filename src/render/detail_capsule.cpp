@@ -93,27 +93,27 @@ struct RowStart {
     float along, across, along_step, across_step;
 };
 
-void keep_largest(float& coverage, std::uint32_t& winner, float candidate, std::uint32_t item) {
+void keep_largest(float& coverage, std::uint32_t& winner, float candidate, std::uint32_t colour) {
     const bool wins = candidate >= coverage && candidate > kLeastCoverage;
     coverage = wins ? candidate : coverage;
-    winner = wins ? item : winner;
+    winner = wins ? colour : winner;
 }
 
 /// Wide everywhere: a sample sees at most one edge.
 void paint_wide_row(float* coverage, std::uint32_t* winner, int count, const Capsule& c, const Footprint& foot,
-                    RowStart row, std::uint32_t item) {
+                    RowStart row, std::uint32_t colour) {
     for (int i = 0; i < count; ++i) {
         const float s = row.along + float(i) * row.along_step, q = row.across + float(i) * row.across_step;
         const float centre = std::min(std::max(s - std::abs(q) * c.slant, 0.0f), c.length);
         const float ds = s - centre;
         const float outside = std::sqrt(ds * ds + q * q) - (c.radius - centre * c.taper);
-        keep_largest(coverage[i], winner[i], 0.5f - foot.share(outside), item);
+        keep_largest(coverage[i], winner[i], 0.5f - foot.share(outside), colour);
     }
 }
 
 /// Any width, and square cuts at thin ends.
 void paint_thin_row(float* coverage, std::uint32_t* winner, int count, const Capsule& c, const Footprint& foot,
-                    RowStart row, std::uint32_t item) {
+                    RowStart row, std::uint32_t colour) {
     const float cut_lo = c.cut_from ? -cut_length(c.radius) : -kUnbounded;
     const float cut_hi = c.length + (c.cut_to ? cut_length(c.radius_to) : kUnbounded);
     const float foot_lo = c.cut_from ? -2.0f : 0.0f, foot_hi = c.length + (c.cut_to ? 2.0f : 0.0f);
@@ -125,23 +125,32 @@ void paint_thin_row(float* coverage, std::uint32_t* winner, int count, const Cap
         const float radius = c.radius - std::min(std::max(centre, 0.0f), c.length) * c.taper;
         const float strip = foot.share(away + radius) - foot.share(away - radius);
         const float run = std::min(cut_hi, s + 0.5f) - std::max(cut_lo, s - 0.5f);
-        keep_largest(coverage[i], winner[i], strip * std::min(std::max(run, 0.0f), 1.0f), item);
+        keep_largest(coverage[i], winner[i], strip * std::min(std::max(run, 0.0f), 1.0f), colour);
     }
 }
 
-/// Narrows [lo, hi] to the x where least <= offset + x * step <= most.
-void narrow(float& lo, float& hi, float offset, float step, float least, float most) {
-    if (std::abs(step) < 1e-6f) {
-        if (offset < least || offset > most) hi = lo - 1;
-        return;
-    }
-    float a = (least - offset) / step, b = (most - offset) / step;
-    if (a > b) std::swap(a, b);
-    lo = std::max(lo, a);
-    hi = std::min(hi, b);
-}
+/// The x of a row at which a linear function of x lies between two bounds.
+class Slab {
+  public:
+    Slab(float step, float least, float most)
+        : inverse_(std::abs(step) < 1e-6f ? 0 : 1 / step), least_(least), most_(most) {}
 
-void paint_capsule(CoveragePlane& plane, const Capsule& c, std::uint32_t item) {
+    /// Narrows [lo, hi] in the row whose function is `offset` at x = 0.
+    void narrow(float& lo, float& hi, float offset) const {
+        if (inverse_ == 0) {
+            if (offset < least_ || offset > most_) hi = lo - 1;
+            return;
+        }
+        const float a = (least_ - offset) * inverse_, b = (most_ - offset) * inverse_;
+        lo = std::max(lo, std::min(a, b));
+        hi = std::min(hi, std::max(a, b));
+    }
+
+  private:
+    float inverse_, least_, most_;
+};
+
+void paint_capsule(CoveragePlane& plane, const Capsule& c, std::uint32_t colour) {
     const float reach = std::max(c.radius, c.radius_to) + kReach;
     if (reach <= kReach) return;
     const float before = c.cut_from ? cut_length(c.radius) + 0.5f : c.before;
@@ -153,19 +162,20 @@ void paint_capsule(CoveragePlane& plane, const Capsule& c, std::uint32_t item) {
     const int y1 = int(std::clamp(std::ceil(std::max(a.y, b.y) + tall), 0.0f, height));
     const Footprint foot(perpendicular(c.along));
     const bool wide = std::min(c.radius, c.radius_to) > kReach && !c.cut_from && !c.cut_to;
+    const Slab ends(c.along.x, -before, c.length + after), sides(-c.along.y, -reach, reach);
     for (int y = y0; y < y1; ++y) {
         const Vec2f p = Vec2f{0.5f, float(y) + 0.5f} - c.from;
         const float along = dot(p, c.along), across = dot(p, perpendicular(c.along));
         float lo = 0, hi = float(plane.width - 1);
-        narrow(lo, hi, along, c.along.x, -before, c.length + after);
-        narrow(lo, hi, across, -c.along.y, -reach, reach);
+        ends.narrow(lo, hi, along);
+        sides.narrow(lo, hi, across);
         if (!(lo <= hi)) continue;
         const int x0 = int(std::ceil(lo)), x1 = int(std::floor(hi)) + 1;
         if (x0 >= x1) continue;
         const RowStart row{along + float(x0) * c.along.x, across - float(x0) * c.along.y, c.along.x, -c.along.y};
         float* coverage = plane.coverage_row(y) + x0;
-        std::uint32_t* winner = plane.item_row(y) + x0;
-        (wide ? paint_wide_row : paint_thin_row)(coverage, winner, x1 - x0, c, foot, row, item);
+        std::uint32_t* winner = plane.colour_row(y) + x0;
+        (wide ? paint_wide_row : paint_thin_row)(coverage, winner, x1 - x0, c, foot, row, colour);
         plane.dirty.include(x0, y, x1, y + 1);
     }
 }
@@ -189,9 +199,9 @@ void straighten_thin_ends(TaperedLine& line) {
 }
 
 void paint_segments(CoveragePlane& plane, std::span<const WidthPoint> line, std::size_t first, std::size_t last,
-                    std::uint32_t item) {
+                    std::uint32_t colour) {
     assert(!line.empty());
-    for (std::size_t i = first; i <= last; ++i) paint_capsule(plane, capsule(line, i, plane.origin), item);
+    for (std::size_t i = first; i <= last; ++i) paint_capsule(plane, capsule(line, i, plane.origin), colour);
 }
 
 }  // namespace dstylize

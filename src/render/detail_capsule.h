@@ -21,6 +21,6 @@ void straighten_thin_ends(TaperedLine& line);
 /// any width and direction. At joints only the wedge that no body covers is painted, so the joints
 /// of a line cannot be seen and long wide strokes cost their area.
 void paint_segments(CoveragePlane& plane, std::span<const WidthPoint> line, std::size_t first, std::size_t last,
-                    std::uint32_t item);
+                    std::uint32_t colour);
 
 }  // namespace dstylize

@@ -69,7 +69,7 @@ class AreaSums {
 
 }  // namespace
 
-void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::uint32_t item,
+void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::uint32_t colour,
                    std::vector<float>& scratch) {
     if (outline.size() < 3) return;
     Vec2f lo = outline[0] - plane.origin, hi = lo;
@@ -90,14 +90,14 @@ void paint_polygon(CoveragePlane& plane, std::span<const Vec2f> outline, std::ui
     for (int y = y0; y < y1; ++y) {
         const float* row = sums.row(y - y0);
         float* coverage = plane.coverage_row(y);
-        std::uint32_t* winner = plane.item_row(y);
+        std::uint32_t* winner = plane.colour_row(y);
         float sum = 0;
         for (int x = x0; x < x1; ++x) {
             sum += row[x - x0];
             const float covered = std::min(std::abs(sum), 1.0f);
             if (covered < coverage[x] || covered <= kLeastCoverage) continue;
             coverage[x] = covered;
-            winner[x] = item;
+            winner[x] = colour;
         }
     }
     plane.dirty.include(x0, y0, x1, y1);

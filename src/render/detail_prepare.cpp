@@ -3,7 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "render/detail_capsule.h"
 
@@ -11,10 +13,10 @@ namespace dstylize {
 namespace {
 
 constexpr int kTileSamples = 128;
-constexpr int kMostSamplesPerPixel = 8;
-/// Samples across the mean stroke: below three, the gaps between strokes, which are about as wide as
-/// the strokes, would be judged by single samples, of which `max` keeps only one stroke's share.
-constexpr double kSamplesPerWidth = 3;
+constexpr double kMostSamplesPerPixel = 8;
+/// Two as the least: where two strokes meet, `max` keeps only the larger of their shares of a sample, which a
+/// whole pixel would show. Three across the mean stroke: gaps between strokes are about as wide as they.
+constexpr double kLeastSamplesPerPixel = 2, kSamplesPerWidth = 3;
 constexpr double kMostSamples = 128e6;
 constexpr float kFlatness = 0.05f;  // samples
 /// A run may hold this many segments that miss the tile before a new run is cheaper.
@@ -39,23 +41,21 @@ double mean_stroke_width(const DisplayList& list) {
 
 int samples_per_pixel(const DisplayList& list, Extent size_px, double scale) {
     const double width = mean_stroke_width(list) * scale;
-    int wanted = 2;
-    if (width > 0) wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), 1.0, double(kMostSamplesPerPixel)));
-    while (wanted > 2 && double(size_px.count()) * wanted * wanted > kMostSamples) --wanted;
+    int wanted = int(kLeastSamplesPerPixel);
+    if (width > 0)
+        wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), kLeastSamplesPerPixel, kMostSamplesPerPixel));
+    while (wanted > kLeastSamplesPerPixel && double(size_px.count()) * wanted * wanted > kMostSamples) --wanted;
     return wanted;
 }
 
-PreparedItem prepared_item(const Item& item, std::uint32_t layer, Scale scale) {
+PreparedItem prepared_item(const Item& item, Scale scale) {
     PreparedItem out;
-    out.layer = layer;
     auto scaled = [&](Vec2f p) { return Vec2f{p.x * scale.x, p.y * scale.y}; };
     if (const auto* fill = std::get_if<Fill>(&item)) {
-        out.colour = fill->colour;
         for (Vec2f p : fill->outline_px) out.outline.push_back(scaled(p));
         return out;
     }
     const auto& stroke = std::get<VariableStroke>(item);
-    out.colour = stroke.colour;
     std::vector<Vec2f> points;
     std::vector<float> widths;
     points.reserve(stroke.points_px.size());
@@ -69,6 +69,19 @@ PreparedItem prepared_item(const Item& item, std::uint32_t layer, Scale scale) {
     return out;
 }
 
+void assign_layers_and_colours(const DisplayList& list, Prepared& out) {
+    std::map<std::array<float, 4>, std::uint32_t> known;
+    std::size_t i = 0;
+    for (std::size_t l = 0; l < list.layers.size(); ++l)
+        for (const Item& item : list.layers[l].items) {
+            const Rgba c = std::visit([](const auto& it) { return it.colour; }, item);
+            const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b, c.a}, std::uint32_t(out.palette.size()));
+            if (is_new) out.palette.push_back(c);
+            out.items[i].layer = std::uint32_t(l);
+            out.items[i++].colour = entry->second;
+        }
+}
+
 /// Collects the runs of each tile, item after item.
 class Binner {
   public:
@@ -79,7 +92,7 @@ class Binner {
 
     void add(std::uint32_t item) {
         const PreparedItem& it = target_.items[item];
-        if (it.colour.a <= 0) return;
+        if (target_.palette[it.colour].a <= 0) return;
         if (!it.outline.empty()) {
             Vec2f lo = it.outline[0], hi = lo;
             for (Vec2f p : it.outline) {
@@ -132,14 +145,14 @@ Prepared prepared(const DisplayList& list, Extent size_px, const Work& work) {
     const Scale scale{float(scale_x * out.samples_per_pixel), float(scale_y * out.samples_per_pixel),
                       float(scale_width * out.samples_per_pixel)};
 
-    std::vector<std::pair<const Item*, std::uint32_t>> sources;
-    for (std::size_t l = 0; l < list.layers.size(); ++l)
-        for (const Item& item : list.layers[l].items) sources.emplace_back(&item, std::uint32_t(l));
+    std::vector<const Item*> sources;
+    for (const Layer& layer : list.layers)
+        for (const Item& item : layer.items) sources.push_back(&item);
     out.items.resize(sources.size());
-    tbb::parallel_for(std::size_t(0), sources.size(), [&](std::size_t i) {
-        out.items[i] = prepared_item(*sources[i].first, sources[i].second, scale);
-    });
+    tbb::parallel_for(std::size_t(0), sources.size(),
+                      [&](std::size_t i) { out.items[i] = prepared_item(*sources[i], scale); });
     work.check();
+    assign_layers_and_colours(list, out);
     Binner binner(out);
     for (std::size_t i = 0; i < out.items.size(); ++i) binner.add(std::uint32_t(i));
     return out;

@@ -13,7 +13,7 @@ namespace dstylize {
 struct PreparedItem {
     TaperedLine line;
     std::vector<Vec2f> outline;
-    Rgba colour;
+    std::uint32_t colour = 0;  ///< index into the palette
     std::uint32_t layer = 0;
 };
 
@@ -27,6 +27,7 @@ struct Prepared {
     int samples_per_pixel = 1;  ///< along each axis
     int tile_px = 0;            ///< side of a tile; the last ones are cut
     Extent tiles;
+    std::vector<Rgba> palette;           ///< the colours of the list, each once
     std::vector<PreparedItem> items;     ///< in painting order, layer after layer
     std::vector<std::vector<Run>> runs;  ///< per tile, in painting order
 };

@@ -26,16 +26,16 @@ struct SampleRect {
 inline constexpr float kLeastCoverage = 1.0f / 4096;
 
 /// What has been painted of one layer (or one item of an `over` layer) in one tile: per sample the
-/// largest coverage and which item had it; of equal ones the later.
+/// largest coverage and the colour of the item that had it; of equal ones the later.
 struct CoveragePlane {
     int width = 0, height = 0;
     Vec2f origin;  ///< of the tile, in samples of the whole raster
     std::vector<float> coverage;
-    std::vector<std::uint32_t> item;
-    SampleRect dirty;  ///< outside of it coverage is 0
+    std::vector<std::uint32_t> colour;  ///< index into the palette; says nothing where coverage is 0
+    SampleRect dirty;                   ///< outside of it coverage is 0
 
     float* coverage_row(int y) { return coverage.data() + std::size_t(y) * std::size_t(width); }
-    std::uint32_t* item_row(int y) { return item.data() + std::size_t(y) * std::size_t(width); }
+    std::uint32_t* colour_row(int y) { return colour.data() + std::size_t(y) * std::size_t(width); }
 };
 
 }  // namespace dstylize

@@ -17,7 +17,7 @@
 namespace dstylize {
 namespace {
 
-struct Premultiplied {
+struct alignas(16) Premultiplied {
     float r = 0, g = 0, b = 0, a = 0;
 };
 
@@ -46,7 +46,7 @@ class TilePainter {
         plane_.height = height_ * k;
         plane_.origin = {float(x0_ * k), float(y0_ * k)};
         plane_.coverage.assign(samples, 0.0f);
-        plane_.item.resize(samples);
+        plane_.colour.resize(samples);
         plane_.dirty = {};
         ink_.assign(samples, {});
         paint_items(drawing_.runs[std::size_t(tile_y) * std::size_t(drawing_.tiles.x) + std::size_t(tile_x)]);
@@ -58,9 +58,9 @@ class TilePainter {
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const PreparedItem& item = drawing_.items[runs[i].item];
             if (item.outline.empty())
-                paint_segments(plane_, item.line, runs[i].first, runs[i].last, runs[i].item);
+                paint_segments(plane_, item.line, runs[i].first, runs[i].last, item.colour);
             else
-                paint_polygon(plane_, item.outline, runs[i].item, scratch_);
+                paint_polygon(plane_, item.outline, item.colour, scratch_);
             const bool merges_with_next =
                 i + 1 < runs.size() &&
                 (list_.layers[item.layer].blend == Blend::max ? drawing_.items[runs[i + 1].item].layer == item.layer
@@ -73,11 +73,11 @@ class TilePainter {
     void composite() {
         for (int y = plane_.dirty.y0; y < plane_.dirty.y1; ++y) {
             float* coverage = plane_.coverage_row(y);
-            const std::uint32_t* winner = plane_.item_row(y);
+            const std::uint32_t* winner = plane_.colour_row(y);
             Premultiplied* ink = ink_.data() + std::size_t(y) * std::size_t(plane_.width);
             for (int x = plane_.dirty.x0; x < plane_.dirty.x1; ++x) {
                 if (coverage[x] == 0) continue;
-                const Rgba c = drawing_.items[winner[x]].colour;
+                const Rgba c = drawing_.palette[winner[x]];
                 const float a = coverage[x] * c.a, rest = 1 - a;
                 Premultiplied& under = ink[x];
                 under = {c.r * a + under.r * rest, c.g * a + under.g * rest, c.b * a + under.b * rest,
@@ -102,15 +102,24 @@ class TilePainter {
         return {sum.r * share, sum.g * share, sum.b * share, sum.a * share};
     }
 
+    /// The ground under a pixel of the output.
+    Rgba ground(int x, int y) const {
+        if (!list_.paper.picture) return list_.paper.colour;
+        const Picture& picture = *list_.paper.picture;
+        const auto at = [](int i, int count, int size) { return int(std::int64_t(2 * i + 1) * count / (2 * size)); };
+        const Rgba8 p = picture(at(x, picture.extent().x, out_.extent().x), at(y, picture.extent().y, out_.extent().y));
+        return {float(p.r) / 255, float(p.g) / 255, float(p.b) / 255, float(p.a) / 255};
+    }
+
     void lay_on_paper() {
-        const Rgba paper = list_.paper.colour;
-        const bool textured = list_.paper.grain > 0 && paper.a > 0;
+        const bool textured = list_.paper.grain > 0 && list_.paper.colour.a > 0;
         const float* grain = textured ? grain_.block(x0_, y0_, width_, height_).data() : nullptr;
         for (int y = 0; y < height_; ++y) {
             Rgba8* row = out_.row(y0_ + y) + x0_;
             for (int x = 0; x < width_; ++x) {
                 const float light = textured ? 1 + list_.paper.grain * *grain++ : 1.0f;
                 const Premultiplied ink = mean_ink(x, y);
+                const Rgba paper = ground(x0_ + x, y0_ + y);
                 const float rest = (1 - ink.a) * paper.a;
                 auto under = [&](float v) { return rest * std::clamp(v * light, 0.0f, 1.0f); };
                 row[x] =

@@ -14,9 +14,11 @@ struct RasterOptions {
 /// The display list painted into pixels of straight alpha; the size of the output is free.
 ///
 /// Colours are composited premultiplied, in sRGB-encoded values as SVG and PDF viewers do it.
-/// Coverage is the analytic area of a stroke in a square sample; a sample is a pixel when strokes are wide
-/// and a fraction of one (down to 1/8) when they are thin, so that hairlines fade instead of breaking
-/// and dense ones keep their tone. Grain is keyed by output pixel.
+/// Coverage is the analytic area of a stroke in a square sample, which is half a pixel wide, and down to 1/8
+/// of one when strokes are thinner than 1.5 pixels on average: hairlines fade instead of breaking, and dense
+/// ones keep their tone. Strokes are the smooth curves through their points at any size (smooth_line).
+/// Grain is keyed by output pixel.
+/// A paper picture is sampled at pixel centres: bring it to the output's size before.
 /// The same list and size give the same bytes for any number of threads. Beyond the result it holds
 /// the flattened centrelines and, per thread, one tile of at most 128 x 128 samples.
 /// Throws Error(cancelled).

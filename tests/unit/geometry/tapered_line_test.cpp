@@ -44,7 +44,9 @@ TEST(SmoothLine, CoarseCircleBecomesRound) {
     const TaperedLine line = smooth_line(points.at, points.width, 0.01f);
     for (std::size_t i = 2; i + 3 < line.size(); ++i) {
         const float off = length(lerp(line[i].at, line[i + 1].at, 0.5f)) - radius;
-        if (line[i].at.x < 49) EXPECT_NEAR(off, 0, 0.05f) << i;  // not next to the two ends
+        if (line[i].at.x < 49) {
+            EXPECT_NEAR(off, 0, 0.05f) << i;
+        }  // not next to the two ends
     }
 }
 
