@@ -1,1 +1,82 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+
+#include "app/commands.h"
+#include "app/report.h"
+#include "pipeline/version.h"
+
+namespace dstylize::app {
+
+ExitCode exit_code(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::failed: return kFailed;
+        case ErrorCode::bad_usage: return kWrongUsage;
+        case ErrorCode::cannot_read: return kInputUnreadable;
+        case ErrorCode::cannot_write: return kOutputUnwritable;
+        case ErrorCode::cancelled: return kInterrupted;
+    }
+    return kFailed;
+}
+
+void print(const std::string& text) {
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+        throw Error(ErrorCode::cannot_write, "standard output",
+                    fmt::format("cannot be written ({})", std::strerror(errno)), "check where it goes");
+}
+
+namespace {
+
+/// One line, whatever is in the file's name.
+int fail(const Error& error, const Arguments& arguments) {
+    std::string line = fmt::format("dstylize: {}", error.what());
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    std::fputs((line + "\n").c_str(), stderr);
+    const ExitCode code = exit_code(error.code());
+    try {
+        if (arguments.json) print(json_report(error, code));
+    } catch (const Error&) {
+        // The first error is the one that counts.
+    }
+    return code;
+}
+
+void run_form(Parser::Form form, std::vector<std::string> words, Arguments& arguments) {
+    Parser parser(form, arguments);
+    parser.parse(std::move(words));
+    if (arguments.version) return print(fmt::format("dstylize {}\n", version()));
+    if (arguments.help || arguments.help_all)
+        return print(parser.help(arguments.help_all || form != Parser::Form::draw));
+    switch (form) {
+        case Parser::Form::draw: return draw(arguments);
+        case Parser::Form::replay: return replay(arguments);
+        case Parser::Form::styles: return list_styles(arguments);
+    }
+}
+
+int run_program(std::vector<std::string> words) {
+    Parser::Form form = Parser::Form::draw;
+    if (!words.empty() && words[0] == "styles") form = Parser::Form::styles;
+    if (!words.empty() && words[0] == "replay") form = Parser::Form::replay;
+    if (form != Parser::Form::draw) words.erase(words.begin());
+    Arguments arguments;
+    try {
+        run_form(form, std::move(words), arguments);
+        return kDone;
+    } catch (const Error& error) {
+        return fail(error, arguments);
+    } catch (const std::bad_alloc&) {
+        return fail({ErrorCode::failed, "", "out of memory", "ask for less --detail or a smaller --size"}, arguments);
+    } catch (const std::exception& error) {
+        return fail({ErrorCode::failed, "", error.what(), "please report this"}, arguments);
+    }
+}
+
+}  // namespace
+}  // namespace dstylize::app
+
+int main(int argc, char** argv) { return dstylize::app::run_program({argv + 1, argv + argc}); }

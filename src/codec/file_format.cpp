@@ -54,25 +54,26 @@ bool is_text(Bytes file) {
     return std::all_of(head.begin(), head.end(), [](unsigned char c) { return c >= 0x20 || std::isspace(c); });
 }
 
-/// Walks the segments up to the frame header.
-std::optional<Extent> jpeg_extent(Bytes file) {
+/// The frame header's data, behind its length; empty when none is found.
+Bytes jpeg_frame(Bytes file) {
     std::size_t at = 2;
     while (at + 9 <= file.size()) {
-        if (file[at] != std::byte{0xff}) return std::nullopt;
+        if (file[at] != std::byte{0xff}) return {};
         const int marker = std::to_integer<int>(file[at + 1]);
         if (marker == 0xff || marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8)) {
             at += marker == 0xff ? 1 : 2;
             continue;
         }
         const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-        if (frame)
-            return Extent{int(integer_at(file, at + 7, 2, Endian::big)), int(integer_at(file, at + 5, 2, Endian::big))};
+        if (frame) return part(file, at + 4);
         at += 2 + std::max<std::size_t>(2, integer_at(file, at + 2, 2, Endian::big));
     }
-    return std::nullopt;
+    return {};
 }
 
 }  // namespace
+
+int jpeg_components(Bytes file) { return int(integer_at(jpeg_frame(file), 5, 1, Endian::big)); }
 
 FileFormat recognised_format(Bytes file) {
     if (starts_with(file, "\x89PNG\r\n\x1a\n")) return FileFormat::png;
@@ -121,7 +122,11 @@ std::optional<Extent> declared_extent(FileFormat format, Bytes file) {
     };
     switch (format) {
         case FileFormat::png: return extent(16, 20, 4, Endian::big);
-        case FileFormat::jpeg: return jpeg_extent(file);
+        case FileFormat::jpeg: {
+            const Bytes frame = jpeg_frame(file);
+            if (frame.empty()) return std::nullopt;
+            return Extent{int(integer_at(frame, 3, 2, Endian::big)), int(integer_at(frame, 1, 2, Endian::big))};
+        }
         case FileFormat::gif: return extent(6, 8, 2, Endian::little);
         case FileFormat::bmp:
             if (integer_at(file, 14, 4, Endian::little) == 12) return extent(18, 20, 2, Endian::little);

@@ -12,6 +12,9 @@ enum class FileFormat { png, jpeg, tiff, webp, bmp, gif, pnm, exr, hdr };
 /// naming it where it is a well-known one.
 FileFormat recognised_format(Bytes file);
 
+/// The number of components that a JPEG's frame header declares; 0 when none is found.
+int jpeg_components(Bytes file);
+
 /// OpenImageIO's name of the format.
 const char* reader_name(FileFormat format);
 

@@ -1,6 +1,9 @@
 #include "codec/metadata.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 
@@ -120,18 +123,21 @@ double carried_dpi(const OIIO::ImageSpec& spec, const std::optional<TiffDirector
         const double per_unit = spec.get_float_attribute("XResolution");
         dpi = unit.starts_with("in") ? per_unit : unit == "cm" ? per_unit * 2.54 : 0;
     }
-    if (!(dpi >= 1 && dpi <= 1e6)) return 0;
-    const double whole = std::round(dpi);
+    return carried_dpi(dpi);
+}
+
+double carried_dpi(double stated) {
+    if (!(stated >= 1 && stated <= 1e6)) return 0;
+    const double whole = std::round(stated);
     constexpr double kHalfPixelPerMetre = 0.0254 / 2;
-    return std::abs(dpi - whole) <= kHalfPixelPerMetre ? whole : dpi;
+    return std::abs(stated - whole) <= kHalfPixelPerMetre ? whole : stated;
 }
 
 std::string xmp_packet(const ipc::MetadataText& text) {
     std::string properties;
     for (const auto& [key, value] : text) {
         if (!is_own_key(key)) continue;
-        const std::string name = std::string(kOwnPrefix) + key;
-        properties += "<" + name + ">" + xml_escaped(as_utf8(value)) + "</" + name + ">\n";
+        properties += fmt::format("<{0}{1}>{2}</{0}{1}>\n", kOwnPrefix, key, xml_escaped(as_utf8(value)));
     }
     if (properties.empty()) return "";
     return "<?xpacket begin=\"\xef\xbb\xbf\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n"
@@ -147,14 +153,14 @@ std::string xmp_packet(const ipc::MetadataText& text) {
 
 ipc::MetadataText own_text(const std::string& xmp) {
     ipc::MetadataText text;
-    const std::string open = "<" + std::string(kOwnPrefix);
+    const std::string open = fmt::format("<{}", kOwnPrefix);
     for (std::size_t at = 0; (at = xmp.find(open, at)) != std::string::npos;) {
         at += open.size();
         const std::size_t begin = xmp.find('>', at);
         if (begin == std::string::npos) break;
         const std::string key = xmp.substr(at, begin - at);
         if (!is_own_key(key)) continue;
-        const std::size_t end = xmp.find("</" + std::string(kOwnPrefix) + key + ">", begin);
+        const std::size_t end = xmp.find(fmt::format("</{}{}>", kOwnPrefix, key), begin);
         if (end == std::string::npos) break;
         text.emplace_back(key, xml_unescaped(std::string_view(xmp).substr(begin + 1, end - begin - 1)));
         at = end;

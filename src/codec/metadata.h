@@ -17,8 +17,11 @@ std::string as_utf8(const std::string& text);
 ipc::MetadataText carried_text(const OIIO::ImageSpec& spec, const std::string& xmp);
 
 /// Pixels per inch, from EXIF where it states them, else as OpenImageIO read them; 0 when not stated.
-/// Whole numbers that a format had to round (PNG counts pixels per metre) are restored.
 double carried_dpi(const OIIO::ImageSpec& spec, const std::optional<TiffDirectory>& exif);
+
+/// The same of a number: 0 when it is no resolution; whole numbers that a format had to round (PNG counts
+/// pixels per metre) are restored.
+double carried_dpi(double stated);
 
 /// What is written into a picture besides pixels, in the two forms that containers hold.
 struct WrittenMetadata {

@@ -1,14 +1,17 @@
 #include "codec/oiio_decode.h"
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "codec/oiio_colours.h"
 #include "codec/pixel_rows.h"
 #include "codec/refusal.h"
 
@@ -19,14 +22,26 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// What the reader complained about, as part of one line, without our name for the file.
+/// What the reader complained about, as part of one line, without our name for the file. Empty when it
+/// is something that harms no pixel.
 std::string complaint(const ImageInput& input, const std::string& path) {
     std::string text = input.geterror();
-    for (const std::string& noise : {"\"" + path + "\"", path, std::string("OpenImageIO: ")})
-        for (std::size_t at; (at = text.find(noise)) != std::string::npos;) text.erase(at, noise.size());
+    for (const std::string_view harmless : {"unknown JFIF revision", "before marker 0xd9"})
+        if (text.find(harmless) != std::string::npos && text.find('\n') == std::string::npos) return "";
     text = text.substr(0, text.find('\n'));
-    while (!text.empty() && (text.back() == ' ' || text.back() == '(' || text.back() == '.')) text.pop_back();
+    for (const std::string& noise : {fmt::format(" (\"{}\")", path), fmt::format("\"{}\"", path), path})
+        for (std::size_t at; (at = text.find(noise)) != std::string::npos;) text.erase(at, noise.size());
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.' || text.back() == ':')) text.pop_back();
     return text.substr(0, 200);
+}
+
+/// Damage, or a kind that the reader does not know: what it says tells which.
+Refusal unreadable(const std::string& complaint) {
+    for (const std::string_view sign : {"upport", "not implemented", "exceeds \"limits"})
+        if (complaint.find(sign) != std::string::npos)
+            return Refusal(fmt::format("is of a kind that is not read ({})", complaint), "convert it to PNG or JPEG",
+                           true);
+    return damaged(complaint);
 }
 
 class Reader {
@@ -36,8 +51,9 @@ class Reader {
         ImageSpec config;
         config["oiio:UnassociatedAlpha"] = 1;
         open(config);
-        if (spec_.get_string_attribute("tiff:ColorSpace") == "CMYK") {
-            config["oiio:RawColor"] = 1;  // keeps the inks, for their profile
+        const std::string colours = spec_.get_string_attribute("tiff:ColorSpace");
+        if (colours == "CMYK" || colours == "CIELAB") {
+            config["oiio:RawColor"] = 1;  // keeps them as they are; we convert them better
             open(config);
         }
     }
@@ -67,7 +83,7 @@ class Reader {
         input_ = ImageInput::create(reader_name(format_), false);
         if (!input_) throw Refusal(std::string("is ") + reader_name(format_) + ", which this OpenImageIO lacks", "");
         ImageSpec opened;
-        if (!input_->open(path_, opened, config)) throw damaged(complaint());
+        if (!input_->open(path_, opened, config)) throw unreadable(complaint());
         spec_ = input_->spec();
     }
     FileFormat format_;
@@ -76,141 +92,72 @@ class Reader {
     ImageSpec spec_;
 };
 
-int channel_named(const ImageSpec& spec, const std::string& name) {
-    const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
-    return found == spec.channelnames.end() ? -1 : int(found - spec.channelnames.begin());
+/// The part of the plane that is the picture, and where the stored pixels lie in it.
+struct Window {
+    Extent extent;
+    int x = 0, y = 0;
+    bool filled = true;  ///< the stored pixels cover it
+};
+
+/// OpenEXR stores any part of the plane beside the part to be shown, the display window; with all other
+/// formats the two are one.
+Window window_of(FileFormat format, const ImageSpec& spec) {
+    if (format != FileFormat::exr) return {{spec.width, spec.height}};
+    Window window{{spec.full_width, spec.full_height}, spec.x - spec.full_x, spec.y - spec.full_y};
+    window.filled = window.x <= 0 && window.y <= 0 && window.x + spec.width >= spec.full_width &&
+                    window.y + spec.height >= spec.full_height;
+    return window;
 }
 
-/// OpenEXR names its channels, possibly by layer ("beauty.R"): the first layer that has R, G and B counts,
-/// else a luminance, else the first channel.
-void find_exr_colours(const ImageSpec& spec, SampleLayout& layout) {
-    if (channel_named(spec, "RY") >= 0)
-        throw Refusal("holds luminance and chroma channels, which are not read", "convert it to RGB");
-    for (const std::string& name : spec.channelnames) {
-        const std::size_t dot = name.rfind('.');
-        const std::string layer = dot == std::string::npos ? "" : name.substr(0, dot + 1);
-        const int r = channel_named(spec, layer + "R"), g = channel_named(spec, layer + "G"),
-                  b = channel_named(spec, layer + "B");
-        if (r < 0 || g < 0 || b < 0) continue;
-        layout.colours = 3;
-        layout.colour[0] = r, layout.colour[1] = g, layout.colour[2] = b;
-        layout.alpha = channel_named(spec, layer + "A");
-        return;
+/// Reads row by row into the sink. False when damage ended it early; throws Refusal unless that is allowed.
+bool read_all_rows(Reader& reader, const SampleLayout& layout, const PixelConverter& converter, const Window& window,
+                   bool allow_damaged, PictureSink& sink) {
+    const ImageSpec& spec = reader.spec();
+    const TypeDesc type = layout.type == SampleType::uint8    ? TypeDesc::UINT8
+                          : layout.type == SampleType::uint16 ? TypeDesc::UINT16
+                                                              : TypeDesc::FLOAT;
+    const auto width = std::size_t(spec.width);
+    const std::size_t row_bytes = layout.pixel_bytes() * width;
+    // Where damage is allowed, rows are read one by one, so that all before the damage are kept.
+    const int rows_at_once = allow_damaged && !spec.tile_width ? 1 : reader.rows_at_once(row_bytes);
+    std::vector<std::byte> samples(row_bytes * std::size_t(rows_at_once));
+    std::vector<Rgba8> pixels(width * std::size_t(rows_at_once));
+    for (int row = 0; row < spec.height; row += rows_at_once) {
+        const int rows = std::min(rows_at_once, spec.height - row);
+        const bool good = reader.read(row, rows, type, samples.data());
+        const std::string complaint = reader.complaint();
+        if ((!good || !complaint.empty()) && !allow_damaged) throw unreadable(complaint);
+        if (!good && row == 0) throw unreadable(complaint);
+        if (!good) return false;
+        const auto read = std::span(pixels).first(width * std::size_t(rows));
+        converter.convert(samples.data(), read);
+        sink.place_part(read, spec.width, window.x, window.y + row);
     }
-    const int y = channel_named(spec, "Y");
-    layout.colours = 1;
-    layout.colour[0] = y >= 0 ? y : spec.alpha_channel == 0 && spec.nchannels > 1 ? 1 : 0;
-    layout.alpha = spec.nchannels > 1 ? spec.alpha_channel : -1;
-}
-
-SampleLayout layout_of(FileFormat format, const ImageSpec& spec) {
-    SampleLayout layout;
-    layout.channels = spec.nchannels;
-    if (spec.format.is_floating_point())
-        layout.type = SampleType::float32;
-    else
-        layout.type = spec.format.size() == 1 ? SampleType::uint8 : SampleType::uint16;
-    if (format == FileFormat::exr) {
-        find_exr_colours(spec, layout);
-        layout.premultiplied = true;
-        return layout;
-    }
-    const std::string inks = spec.get_string_attribute("tiff:ColorSpace");
-    if (inks == "color separated" && spec.nchannels != 4 && spec.nchannels != 5)
-        throw Refusal("uses printing inks other than cyan, magenta, yellow and black", "convert it to RGB");
-    layout.colours = inks == "CMYK" || inks == "color separated" ? 4 : spec.nchannels >= 3 ? 3 : 1;
-    if (layout.colours == 4 && layout.type == SampleType::float32) layout.type = SampleType::uint16;
-    // GIF's reader states a channel that does not exist.
-    const int alpha = format == FileFormat::gif ? spec.nchannels - 1 : spec.alpha_channel;
-    if (alpha >= layout.colours && alpha < spec.nchannels) layout.alpha = alpha;
-    layout.premultiplied = format == FileFormat::tiff && !spec.get_int_attribute("tiff:UnassociatedAlpha");
-    return layout;
-}
-
-std::string profile_of(const ImageSpec& spec) {
-    const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile");
-    if (!profile || profile->type().basetype != TypeDesc::UINT8) return "";
-    return std::string(static_cast<const char*>(profile->data()), profile->type().size());
-}
-
-/// A gamma that a PNG states without a profile, where it is not about that of sRGB; else 0.
-double stated_gamma(FileFormat format, const ImageSpec& spec) {
-    const double gamma = format == FileFormat::png ? spec.get_float_attribute("oiio:Gamma") : 0;
-    return gamma > 0.1 && gamma < 10 && std::abs(gamma - 2.2) > 0.05 ? gamma : 0;
-}
-
-std::optional<ProfileTransform> transform_for(FileFormat format, const SampleLayout& layout, const ImageSpec& spec) {
-    const std::string profile = profile_of(spec);
-    if (profile.empty()) {
-        if (const double gamma = stated_gamma(format, spec))
-            return ProfileTransform(gamma, layout.colours, layout.type);
-    } else if (is_profile_for(bytes_of(profile), layout.colours)) {
-        try {
-            ProfileTransform transform(bytes_of(profile), layout.colours, layout.type);
-            if (!transform.is_identity()) return transform;
-        } catch (const Refusal&) {  // a broken profile counts as none, as in every viewer
-        }
-    }
-    return std::nullopt;
-}
-
-/// EXIF's orientation of the rows that the reader delivers.
-int orientation_of(FileFormat format, const ImageSpec& spec, const std::optional<TiffDirectory>& exif) {
-    const int read = spec.get_int_attribute("Orientation", 1);
-    if (format == FileFormat::hdr || (format == FileFormat::tiff && !exif)) return read;
-    if (!exif) return 1;
-    const int stated = int(exif->integer(TiffTagId::orientation).value_or(1));
-    // Some kinds of TIFF are read through libtiff's TIFFReadRGBAImageOriented, which mirrors them already
-    // and leaves only the transposition.
-    const int photometric = int(exif->integer(TiffTagId::photometric).value_or(2));
-    const int compression = int(exif->integer(TiffTagId::compression).value_or(1));
-    const bool jpeg = compression == 6 || compression == 7;
-    const bool luminance_chroma = photometric == 6 || (photometric >= 8 && photometric <= 10) || photometric >= 32844;
-    const bool mirrored = format == FileFormat::tiff && !spec.tile_width &&
-                          (luminance_chroma || (jpeg && exif->integer(TiffTagId::samples_per_pixel) != 3u));
-    if (!mirrored) return stated;
-    return stated >= 5 && stated <= 8 ? 5 : 1;
+    return true;
 }
 
 }  // namespace
 
 Decoded oiio_decoded(FileFormat format, const ipc::Descriptor& file, const EmbeddedMetadata& embedded,
                      const std::optional<TiffDirectory>& exif, const Limits& limits) {
+    TiffColours tiff;
+    if (format == FileFormat::tiff && exif) tiff = taken_over_colours(file, *exif);
     Reader reader(format, file);
     const ImageSpec& spec = reader.spec();
-    const Extent stored{spec.width, spec.height};
-    check_size(stored, 0, limits);
+    const Window window = window_of(format, spec);
+    check_size({spec.width, spec.height}, 0, limits);
+    check_size(window.extent, 0, limits);
     if (spec.depth > 1) throw Refusal("is a volume, not a picture", "give a flat picture");
-    const SampleLayout layout = layout_of(format, spec);
-    const PixelConverter converter(layout, transform_for(format, layout, spec));
-    PictureSink sink(stored, orientation_of(format, spec, exif));
-
-    const TypeDesc type = layout.type == SampleType::uint8    ? TypeDesc::UINT8
-                          : layout.type == SampleType::uint16 ? TypeDesc::UINT16
-                                                              : TypeDesc::FLOAT;
-    const std::size_t row_bytes = layout.pixel_bytes() * std::size_t(stored.x);
-    // Where damage is allowed, rows are read one by one, so that all before the damage are kept.
-    const int rows_at_once = limits.allow_damaged && !spec.tile_width ? 1 : reader.rows_at_once(row_bytes);
-    std::vector<std::byte> samples(row_bytes * std::size_t(rows_at_once));
-    std::vector<Rgba8> pixels(std::size_t(stored.x) * std::size_t(rows_at_once));
-    bool whole = true;
-    for (int row = 0; row < stored.y && whole; row += rows_at_once) {
-        const int rows = std::min(rows_at_once, stored.y - row);
-        const std::size_t count = std::size_t(rows) * std::size_t(stored.x);
-        whole = reader.read(row, rows, type, samples.data());
-        const std::string complaint = reader.complaint();
-        if ((!whole || !complaint.empty()) && !limits.allow_damaged) throw damaged(complaint);
-        if (!whole && row == 0) throw damaged(complaint);
-        if (!whole) break;
-        converter.convert(samples.data(), std::span(pixels).first(count));
-        sink.place(std::span(pixels).first(count), row);
-    }
+    const SampleLayout layout = sample_layout(format, spec, tiff);
+    const PixelConverter converter(layout, stated_transform(format, layout, spec));
+    PictureSink sink(window.extent, stored_orientation(format, spec, exif));
+    const bool whole = read_all_rows(reader, layout, converter, window, limits.allow_damaged, sink);
 
     Decoded decoded;
     decoded.extent = sink.upright().extent();
     const auto transparent = [](Rgba8 p) { return p.a != 255; };
-    decoded.has_alpha =
-        !whole || (layout.alpha >= 0 && (format != FileFormat::gif || std::ranges::any_of(sink.pixels(), transparent)));
+    decoded.has_alpha = !whole || !window.filled || (layout.alpha >= 0 && format != FileFormat::gif) ||
+                        (format == FileFormat::gif && std::ranges::any_of(sink.pixels(), transparent));
     decoded.pixels = sink.take();
     decoded.dpi = carried_dpi(spec, exif);
     decoded.text = carried_text(spec, embedded.xmp);

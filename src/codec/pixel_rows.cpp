@@ -61,9 +61,23 @@ T straight(T colour, T alpha) {
 }
 
 template <class T>
+constexpr T white() {
+    if constexpr (std::is_same_v<T, float>) return 1;
+    return T(-1);
+}
+
+template <class T>
 float ink(T value) {
     if constexpr (std::is_same_v<T, float>) return unit(value);
     return float(value) / float(T(-1));
+}
+
+/// TIFF 6.0, section 23: L* from 0 to 100 over the whole range, a* and b* as signed numbers.
+template <class T>
+std::array<float, 3> lab(const T* colour) {
+    using Signed = std::make_signed_t<T>;
+    constexpr float kUnit = sizeof(T) == 1 ? 1 : 256;
+    return {float(colour[0]) * 100 / float(T(-1)), float(Signed(colour[1])) / kUnit, float(Signed(colour[2])) / kUnit};
 }
 
 }  // namespace
@@ -81,40 +95,62 @@ void PixelConverter::convert(const void* samples, std::span<Rgba8> pixels) const
 
 template <class T>
 void PixelConverter::convert_typed(const T* samples, std::span<Rgba8> pixels) const {
-    const auto stride = std::size_t(layout_.channels), colours = std::size_t(layout_.colours);
+    const auto stride = std::size_t(layout_.channels);
     constexpr std::size_t kRun = 1024;
-    std::array<T, kRun * 4> gathered;
+    std::array<T, kRun * 4> colours;
     std::array<std::uint8_t, kRun * 3> rgb;
     for (std::size_t begin = 0; begin < pixels.size(); begin += kRun) {
         const std::size_t count = std::min(kRun, pixels.size() - begin);
         const T* in = samples + begin * stride;
-        for (std::size_t c = 0; c < colours; ++c) {
-            const T* channel = in + layout_.colour[c];
-            for (std::size_t n = 0; n < count; ++n) gathered[n * colours + c] = channel[n * stride];
-        }
-        if (layout_.alpha >= 0 && layout_.premultiplied)
-            for (std::size_t n = 0; n < count; ++n)
-                for (std::size_t c = 0; c < colours; ++c)
-                    gathered[n * colours + c] =
-                        straight(gathered[n * colours + c], in[n * stride + std::size_t(layout_.alpha)]);
-        if (transform_) {
-            if constexpr (std::is_same_v<T, float>)
-                std::transform(gathered.begin(), gathered.begin() + std::ptrdiff_t(count * colours), gathered.begin(),
-                               unit);
-            transform_->apply(gathered.data(), rgb.data(), count);
-        } else if (colours == 4) {
-            for (std::size_t n = 0; n < count; ++n)
-                for (std::size_t c = 0; c < 3; ++c)
-                    rgb[n * 3 + c] = alpha8((1 - ink(gathered[n * 4 + c])) * (1 - ink(gathered[n * 4 + 3])));
-        } else if (colours == 3) {
-            for (std::size_t n = 0; n < count * 3; ++n) rgb[n] = colour8(gathered[n]);
-        } else {
-            for (std::size_t n = 0; n < count; ++n) rgb[n * 3] = rgb[n * 3 + 1] = rgb[n * 3 + 2] = colour8(gathered[n]);
-        }
+        gather(in, count, colours.data());
+        to_srgb(colours.data(), count, rgb.data());
         for (std::size_t n = 0; n < count; ++n) {
             const std::uint8_t a = layout_.alpha < 0 ? 255 : alpha8(in[n * stride + std::size_t(layout_.alpha)]);
             pixels[begin + n] = {rgb[n * 3], rgb[n * 3 + 1], rgb[n * 3 + 2], a};
         }
+    }
+}
+
+/// The colours of `count` pixels without gaps, straight, 0 being black.
+template <class T>
+void PixelConverter::gather(const T* in, std::size_t count, T* colours) const {
+    const auto stride = std::size_t(layout_.channels), channels = std::size_t(layout_.colours);
+    for (std::size_t c = 0; c < channels; ++c) {
+        const T* channel = in + layout_.colour[c];
+        for (std::size_t n = 0; n < count; ++n) colours[n * channels + c] = channel[n * stride];
+    }
+    if (layout_.alpha >= 0 && layout_.premultiplied)
+        for (std::size_t n = 0; n < count; ++n)
+            for (std::size_t c = 0; c < channels; ++c) {
+                T& colour = colours[n * channels + c];
+                colour = straight(colour, in[n * stride + std::size_t(layout_.alpha)]);
+            }
+    if (layout_.inverted)
+        std::transform(colours, colours + count * channels, colours, [](T v) { return white<T>() - v; });
+}
+
+template <class T>
+void PixelConverter::to_srgb(T* colours, std::size_t count, std::uint8_t* rgb) const {
+    const auto channels = std::size_t(layout_.colours);
+    if (!layout_.palette.empty()) {
+        for (std::size_t n = 0; n < count; ++n) {
+            const Rgba8 entry = layout_.palette[std::min(std::size_t(colours[n]), layout_.palette.size() - 1)];
+            rgb[n * 3] = entry.r, rgb[n * 3 + 1] = entry.g, rgb[n * 3 + 2] = entry.b;
+        }
+    } else if (layout_.lab) {
+        if constexpr (!std::is_same_v<T, float>)
+            for (std::size_t n = 0; n < count; ++n) transform_->apply(lab(colours + n * 3).data(), rgb + n * 3, 1);
+    } else if (transform_) {
+        if constexpr (std::is_same_v<T, float>) std::transform(colours, colours + count * channels, colours, unit);
+        transform_->apply(colours, rgb, count);
+    } else if (channels == 4) {
+        for (std::size_t n = 0; n < count; ++n)
+            for (std::size_t c = 0; c < 3; ++c)
+                rgb[n * 3 + c] = alpha8((1 - ink(colours[n * 4 + c])) * (1 - ink(colours[n * 4 + 3])));
+    } else if (channels == 3) {
+        for (std::size_t n = 0; n < count * 3; ++n) rgb[n] = colour8(colours[n]);
+    } else {
+        for (std::size_t n = 0; n < count; ++n) rgb[n * 3] = rgb[n * 3 + 1] = rgb[n * 3 + 2] = colour8(colours[n]);
     }
 }
 

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "codec/profile.h"
 #include "core/picture.h"
@@ -16,6 +17,9 @@ struct SampleLayout {
     int colour[4] = {0, 1, 2, 3};  ///< where each colour lies
     int alpha = -1;                ///< where alpha lies; -1: opaque
     bool premultiplied = false;    ///< colours are multiplied by alpha (associated)
+    bool inverted = false;         ///< stored as most - value
+    bool lab = false;              ///< 3 colours as TIFF stores CIE L*a*b*; integers only
+    std::vector<Rgba8> palette;    ///< not empty: the one colour is an index
 
     std::size_t sample_bytes() const { return type == SampleType::uint8 ? 1 : type == SampleType::uint16 ? 2 : 4; }
     std::size_t pixel_bytes() const { return sample_bytes() * std::size_t(channels); }
@@ -32,6 +36,10 @@ class PixelConverter {
   private:
     template <class T>
     void convert_typed(const T* samples, std::span<Rgba8> pixels) const;
+    template <class T>
+    void gather(const T* in, std::size_t count, T* colours) const;
+    template <class T>
+    void to_srgb(T* colours, std::size_t count, std::uint8_t* rgb) const;
     SampleLayout layout_;
     std::optional<ProfileTransform> transform_;
 };

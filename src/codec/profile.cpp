@@ -13,9 +13,6 @@
 namespace dstylize::codec {
 namespace {
 
-constexpr cmsCIExyY kD65{0.3127, 0.3290, 1.0};
-constexpr cmsCIExyYTRIPLE kRec709{{0.64, 0.33, 1.0}, {0.30, 0.60, 1.0}, {0.15, 0.06, 1.0}};
-
 cmsColorSpaceSignature colour_space(int channels) {
     return channels == 1 ? cmsSigGrayData : channels == 3 ? cmsSigRgbData : cmsSigCmykData;
 }
@@ -38,10 +35,12 @@ struct ProfileTransform::Handles {
     int channels = 0;
     SampleType type{};
 
-    Handles(cmsHPROFILE source, int n, SampleType t) : channels(n), type(t) {
+    /// Takes `source` over.
+    Handles(cmsHPROFILE source, cmsColorSpaceSignature space, cmsUInt32Number source_type, int n, SampleType t)
+        : channels(n), type(t) {
         const cmsHPROFILE target = cmsCreate_sRGBProfile();
-        if (source && target && cmsGetColorSpace(source) == colour_space(n))
-            transform = cmsCreateTransform(source, lcms_type(n, t), target, TYPE_RGB_8, INTENT_RELATIVE_COLORIMETRIC,
+        if (source && target && cmsGetColorSpace(source) == space)
+            transform = cmsCreateTransform(source, source_type, target, TYPE_RGB_8, INTENT_RELATIVE_COLORIMETRIC,
                                            cmsFLAGS_BLACKPOINTCOMPENSATION | cmsFLAGS_NOCACHE);
         if (target) cmsCloseProfile(target);
         if (source) cmsCloseProfile(source);
@@ -50,19 +49,33 @@ struct ProfileTransform::Handles {
     Handles(const Handles&) = delete;
     Handles& operator=(const Handles&) = delete;
     ~Handles() { cmsDeleteTransform(transform); }
+
+    static std::unique_ptr<Handles> from(cmsHPROFILE source, int n, SampleType t) {
+        return std::make_unique<Handles>(source, colour_space(n), lcms_type(n, t), n, t);
+    }
 };
 
-ProfileTransform::ProfileTransform(Bytes icc_profile, int channels, SampleType type)
-    : handles_(std::make_unique<Handles>(cmsOpenProfileFromMem(icc_profile.data(), cmsUInt32Number(icc_profile.size())),
-                                         channels, type)) {}
+ProfileTransform::ProfileTransform(std::unique_ptr<Handles> handles) : handles_(std::move(handles)) {}
 
-ProfileTransform::ProfileTransform(double gamma, int channels, SampleType type) {
-    cmsToneCurve* curve = cmsBuildGamma(nullptr, gamma);
+ProfileTransform::ProfileTransform(Bytes icc_profile, int channels, SampleType type)
+    : handles_(Handles::from(cmsOpenProfileFromMem(icc_profile.data(), cmsUInt32Number(icc_profile.size())), channels,
+                             type)) {}
+
+ProfileTransform::ProfileTransform(const StatedColours& stated, int channels, SampleType type) {
+    cmsToneCurve* curve = cmsBuildGamma(nullptr, stated.gamma);
     cmsToneCurve* const curves[] = {curve, curve, curve};
+    const auto xy = [](const double(&point)[2]) { return cmsCIExyY{point[0], point[1], 1.0}; };
+    const cmsCIExyY white = xy(stated.white);
+    const cmsCIExyYTRIPLE primaries{xy(stated.red), xy(stated.green), xy(stated.blue)};
     const cmsHPROFILE source =
-        channels == 1 ? cmsCreateGrayProfile(&kD65, curve) : cmsCreateRGBProfile(&kD65, &kRec709, curves);
+        channels == 1 ? cmsCreateGrayProfile(&white, curve) : cmsCreateRGBProfile(&white, &primaries, curves);
     cmsFreeToneCurve(curve);
-    handles_ = std::make_unique<Handles>(source, channels, type);
+    handles_ = Handles::from(source, channels, type);
+}
+
+ProfileTransform ProfileTransform::from_lab() {
+    return ProfileTransform(
+        std::make_unique<Handles>(cmsCreateLab4Profile(nullptr), cmsSigLabData, TYPE_Lab_FLT, 3, SampleType::float32));
 }
 
 ProfileTransform::ProfileTransform(ProfileTransform&&) noexcept = default;

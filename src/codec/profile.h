@@ -13,14 +13,23 @@ namespace dstylize::codec {
 /// otherwise, floats are linear.
 enum class SampleType { uint8, uint16, float32 };
 
+/// How values relate to light: by default linear light of the primaries of sRGB and Rec. 709.
+struct StatedColours {
+    double gamma = 1;  ///< values = light ^ (1 / gamma)
+    /// CIE x and y of red, green, blue and white.
+    double red[2] = {0.64, 0.33}, green[2] = {0.30, 0.60}, blue[2] = {0.15, 0.06}, white[2] = {0.3127, 0.3290};
+};
+
 /// Converts colours from an embedded profile to 8-bit sRGB (relative colorimetric with black point
 /// compensation, as browsers and print shops do).
 class ProfileTransform {
   public:
     /// Throws Refusal when the profile is unusable or not one for `channels` (1 grey, 3 RGB, 4 CMYK).
     ProfileTransform(Bytes icc_profile, int channels, SampleType type);
-    /// For pictures that state a gamma instead: sRGB primaries, values = light ^ (1 / `gamma`).
-    ProfileTransform(double gamma, int channels, SampleType type);
+    /// For pictures that state their colours by numbers instead.
+    ProfileTransform(const StatedColours& stated, int channels, SampleType type);
+    /// For CIE L*a*b* (D50) in floats: L* in [0, 100].
+    static ProfileTransform from_lab();
     ProfileTransform(ProfileTransform&&) noexcept;
     ProfileTransform& operator=(ProfileTransform&&) noexcept;
     ~ProfileTransform();
@@ -33,6 +42,7 @@ class ProfileTransform {
 
   private:
     struct Handles;
+    explicit ProfileTransform(std::unique_ptr<Handles> handles);
     std::unique_ptr<Handles> handles_;
 };
 

@@ -13,7 +13,7 @@ int value_bytes(std::uint16_t type) {
 }
 
 TiffTag number_tag(TiffTagId id, TiffType type, std::initializer_list<std::uint32_t> numbers) {
-    TiffTag tag{id, type, 1, {}};
+    TiffTag tag{id, type, 1, {}, 0};
     for (const std::uint32_t number : numbers)
         append_integer(tag.value, number, type == TiffType::short_integer ? 2 : 4, Endian::little);
     return tag;
@@ -67,17 +67,18 @@ std::optional<TiffDirectory> first_directory(Bytes tiff) {
         const std::uint64_t size = std::uint64_t(values) * std::uint64_t(value_bytes(type));
         const Bytes value = part(tiff, size <= 4 ? entry + 8 : number(entry + 8, 4), size);
         if (size == 0 || value.size() < size) continue;
-        directory.tags.push_back({TiffTagId(number(entry, 2)), TiffType(type), values, std::string(text_of(value))});
+        directory.tags.push_back(
+            {TiffTagId(number(entry, 2)), TiffType(type), values, std::string(text_of(value)), entry});
     }
     return directory;
 }
 
 TiffTag ascii_tag(TiffTagId id, const std::string& text) {
-    return {id, TiffType::ascii, std::uint32_t(text.size() + 1), text + '\0'};
+    return {id, TiffType::ascii, std::uint32_t(text.size() + 1), text + '\0', 0};
 }
 
 TiffTag bytes_tag(TiffTagId id, TiffType type, const std::string& bytes) {
-    return {id, type, std::uint32_t(bytes.size()), bytes};
+    return {id, type, std::uint32_t(bytes.size()), bytes, 0};
 }
 
 std::vector<TiffTag> resolution_tags(double dpi) {

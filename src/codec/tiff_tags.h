@@ -10,18 +10,21 @@ namespace dstylize::codec {
 
 /// Numbers of the TIFF 6.0 and EXIF tags that are used.
 enum class TiffTagId : std::uint16_t {
+    image_length = 257,
+    bits_per_sample = 258,
     compression = 259,
     photometric = 262,
     description = 270,
     orientation = 274,
     samples_per_pixel = 277,
+    rows_per_strip = 278,
     x_resolution = 282,
     y_resolution = 283,
     resolution_unit = 296,
     software = 305,
     date_time = 306,
     artist = 315,
-    tile_width = 322,
+    colour_map = 320,
     xmp = 700,
     copyright = 33432,
     icc_profile = 34675,
@@ -42,6 +45,7 @@ struct TiffTag {
     TiffType type;
     std::uint32_t count;
     std::string value;
+    std::size_t entry_offset = 0;  ///< where its 12 bytes lie in the file that it was read from
 };
 
 /// A directory of tags (IFD) of a classic TIFF file or an EXIF block, which is the same thing.

@@ -1,6 +1,5 @@
 #include "codec/webp.h"
 
-#include <OpenImageIO/tiffutils.h>
 #include <webp/decode.h>
 #include <webp/demux.h>
 #include <webp/encode.h>
@@ -91,9 +90,9 @@ Decoded webp_decoded(Bytes file, const Limits& limits) {
     if (frame.x_offset + frame.width > canvas.x || frame.y_offset + frame.height > canvas.y)
         throw damaged("a frame exceeds the canvas");
 
-    std::string exif_bytes = chunk(demuxer.get(), "EXIF");
-    if (exif_bytes.starts_with("Exif")) exif_bytes.erase(0, 6);  // some writers keep JPEG's prefix
-    const auto exif = first_directory(bytes_of(exif_bytes));
+    EmbeddedMetadata embedded{chunk(demuxer.get(), "EXIF"), chunk(demuxer.get(), "XMP ")};
+    if (embedded.exif.starts_with("Exif")) embedded.exif.erase(0, 6);  // some writers keep JPEG's prefix
+    const auto exif = first_directory(bytes_of(embedded.exif));
     const int orientation = exif ? int(exif->integer(TiffTagId::orientation).value_or(1)) : 1;
 
     PictureSink sink(canvas, orientation);
@@ -113,10 +112,7 @@ Decoded webp_decoded(Bytes file, const Limits& limits) {
     const bool covered = frame.width == canvas.x && frame.height == canvas.y;
     decoded.has_alpha = frame.has_alpha || !covered || !whole;
     decoded.pixels = sink.take();
-    OIIO::ImageSpec spec;
-    if (exif) OIIO::decode_exif(exif_bytes, spec);
-    decoded.dpi = carried_dpi(spec, exif);
-    decoded.text = carried_text(spec, chunk(demuxer.get(), "XMP "));
+    carry(embedded, exif, decoded);
     return decoded;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,6 +45,8 @@ struct Paper {
     Rgba colour{1, 1, 1, 1};  ///< alpha 0: transparent ground
     float grain = 0;          ///< relative lightness noise (standard deviation about this), raster only
     std::uint64_t seed = 0;   ///< of the grain
+    /// In the colour's place, stretched over the frame; its transparent parts stay transparent.
+    std::shared_ptr<const Picture> picture = nullptr;
 };
 
 /// A finished drawing as vectors in the picture frame; raster, SVG and PDF all draw this one list.

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,8 @@ struct DocumentInfo {
     std::string title;
     /// Key and text: author, copyright, recipe, ... UTF-8; what is not valid is replaced by U+FFFD.
     std::vector<std::pair<std::string, std::string>> text;
+    /// The list's paper picture as a PNG file, which SVG embeds; without it SVG has no paper picture.
+    std::vector<std::byte> paper_png;
 };
 
 /// An SVG 1.1 document: viewBox in picture pixels, coordinates to 1/100 of one. The paper is a locked

@@ -73,6 +73,31 @@ void paint_layer(cairo_t* context, const ShapeLayer& layer) {
     cairo_paint_with_alpha(context, layer.opacity);
 }
 
+/// The picture, stretched over the page.
+void paint_picture(cairo_t* context, const Picture& picture, double width, double height) {
+    const Extent extent = picture.extent();
+    const std::unique_ptr<cairo_surface_t, SurfaceDeleter> image(
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, extent.x, extent.y));
+    check(cairo_surface_status(image.get()));
+    unsigned char* bytes = cairo_image_surface_get_data(image.get());
+    const std::size_t stride = std::size_t(cairo_image_surface_get_stride(image.get()));
+    for (int y = 0; y < extent.y; ++y) {
+        auto* row = reinterpret_cast<std::uint32_t*>(bytes + std::size_t(y) * stride);
+        for (int x = 0; x < extent.x; ++x) {
+            const Rgba8 p = picture(x, y);
+            const auto premultiplied = [&](std::uint8_t c) { return std::uint32_t((c * p.a + 127) / 255); };
+            row[x] = std::uint32_t(p.a) << 24 | premultiplied(p.r) << 16 | premultiplied(p.g) << 8 | premultiplied(p.b);
+        }
+    }
+    cairo_surface_mark_dirty(image.get());
+    cairo_save(context);
+    cairo_scale(context, width / extent.x, height / extent.y);
+    cairo_set_source_surface(context, image.get(), 0, 0);
+    cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);
+    cairo_paint(context);
+    cairo_restore(context);
+}
+
 }  // namespace
 
 std::string pdf_document(const DisplayList& list, const DocumentInfo& info) {
@@ -85,7 +110,9 @@ std::string pdf_document(const DisplayList& list, const DocumentInfo& info) {
     set_information(surface.get(), info);
     const std::unique_ptr<cairo_t, ContextDeleter> context(cairo_create(surface.get()));
     cairo_scale(context.get(), width_pt / list.width_px, height_pt / list.height_px);
-    if (const Rgba paper = list.paper.colour; paper.a > 0) {
+    if (list.paper.picture) {
+        paint_picture(context.get(), *list.paper.picture, list.width_px, list.height_px);
+    } else if (const Rgba paper = list.paper.colour; paper.a > 0) {
         cairo_set_source_rgba(context.get(), paper.r, paper.g, paper.b, paper.a);
         cairo_paint(context.get());
     }

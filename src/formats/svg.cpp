@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 
 #include "formats/detail_vector.h"
 
@@ -36,6 +37,16 @@ std::string decimal(double value) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
     return text;
+}
+
+void append_base64(std::string& out, std::span<const std::byte> bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < here ? std::uint32_t(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) out += k <= here ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
 }
 
 /// Path data in relative coordinates. Differences are taken between rounded positions, so that
@@ -105,7 +116,7 @@ class SvgWriter {
     std::string document(const DisplayList& list, const DocumentInfo& info) {
         head(list, info);
         metadata(info);
-        paper(list);
+        paper(list, info);
         const float tolerance = shape_tolerance_px(list);
         for (const Layer& l : list.layers) layer(shape_layer(l, tolerance));
         out_ += "</svg>\n";
@@ -121,6 +132,7 @@ class SvgWriter {
         out_ += fmt::format(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
             "<svg xmlns=\"http://www.w3.org/2000/svg\"\n"
+            "     xmlns:xlink=\"http://www.w3.org/1999/xlink\"\n"
             "     xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
             "     xmlns:sodipodi=\"http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd\"\n"
             "     xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"\n"
@@ -144,9 +156,17 @@ class SvgWriter {
         out_ += "</metadata>\n";
     }
 
-    void paper(const DisplayList& list) {
-        if (list.paper.colour.a <= 0) return;
+    void paper(const DisplayList& list, const DocumentInfo& info) {
+        if (list.paper.picture ? info.paper_png.empty() : list.paper.colour.a <= 0) return;
         open_group("paper", "paper", " sodipodi:insensitive=\"true\"");
+        if (list.paper.picture) {
+            out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ",
+                                decimal(list.width_px), decimal(list.height_px));
+            out_ += "xlink:href=\"data:image/png;base64,";
+            append_base64(out_, info.paper_png);
+            out_ += "\"/>\n</g>\n";
+            return;
+        }
         out_ += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n</g>\n", decimal(list.width_px),
                             decimal(list.height_px), paint(list.paper.colour));
     }

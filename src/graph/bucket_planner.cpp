@@ -95,8 +95,7 @@ class BucketSearch {
         const std::uint64_t key = key_[u];
         if (plan_.parent[u] != kNoNode) plan_.owner[u] = plan_.owner[index(plan_.parent[u])];
         edges_(u, [&](std::uint32_t v, std::uint32_t height, int step) {
-            const std::uint64_t reached = keys_.after(key, height, edges_.length5_[std::size_t(step)]),
-                                before = key_[v];
+            const std::uint64_t reached = keys_.after(key, height, edges_.length5(step)), before = key_[v];
             if (reached > before) return;
             if (reached == before) {
                 if (plan_.parent[v] != kNoNode && precedes(u, index(plan_.parent[v]))) plan_.parent[v] = NodeId{u};

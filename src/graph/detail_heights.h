@@ -30,10 +30,14 @@ class InsideSteps {
     std::vector<std::uint32_t> column_, row_;
 };
 
-/// Calls visit(neighbour, height, step) for every edge that leaves a node. The number of steps and where heights
-/// come from are fixed when the program is compiled: this is the innermost loop of the fast planners.
+/// What the two classes below share. They call visit(neighbour, height, step) for every edge that leaves
+/// a node. The number of steps and where heights come from are fixed when the program is compiled:
+/// this is the innermost loop of the fast planners.
 template <int kSteps>
 class EdgesOfNode {
+  public:
+    std::uint32_t length5(int step) const { return length5_[std::size_t(step)]; }
+
   protected:
     explicit EdgesOfNode(const WeightedLattice& g) : inside_(g.lattice) {
         const auto steps = g.lattice.steps();
@@ -45,7 +49,7 @@ class EdgesOfNode {
     InsideSteps inside_;
     std::array<std::int32_t, kSteps> offset_;
 
-  public:
+  private:
     std::array<std::uint32_t, kSteps> length5_;
 };
 

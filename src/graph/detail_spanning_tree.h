@@ -33,21 +33,23 @@ class SpanningTree {
     }
 
     Plan run(const Work& work) && {
-        for (std::size_t count = 0; !queue_.empty(); ++count) {
+        const auto is_stale = [this](std::uint64_t edge) {
+            return is_settled(smaller_node(edge)) && is_settled(larger_node(edge));
+        };
+        for (std::size_t count = 0;; ++count) {
             if (count % 65536 == 0) work.check();
-            const EdgeQueue::Edge e = queue_.pop();
-            const Forward& step = forward_[e.index % kRanks];
-            const std::uint32_t a = std::uint32_t(e.index / kRanks), b = a + step.offset;
-            if (least_[a] == kSettled && least_[b] == kSettled) continue;
-            const std::uint32_t from = least_[a] == kSettled ? a : b, to = a + b - from;
+            const auto e = queue_.pop(is_stale);
+            if (!e) return std::move(plan_);
+            const std::uint32_t a = smaller_node(e->index), b = larger_node(e->index);
+            const std::uint32_t from = is_settled(a) ? a : b, to = a + b - from;
             least_[to] = kSettled;
             const PathLabel& before = plan_.label[from];
-            plan_.label[to] = {std::max(before.highest, e.height), before.sum + std::uint64_t(e.height) * step.length5};
+            plan_.label[to] = {std::max(before.highest, e->height),
+                               before.sum + std::uint64_t(e->height) * forward_[e->index % kRanks].length5};
             plan_.parent[to] = NodeId{from};
             plan_.owner[to] = plan_.owner[from];
             offer_edges_of(to);
         }
-        return std::move(plan_);
     }
 
   private:
@@ -57,6 +59,10 @@ class SpanningTree {
         std::uint32_t offset = 0;  // towards the larger node index
         std::uint32_t length5 = 0;
     };
+
+    bool is_settled(std::uint32_t n) const { return least_[n] == kSettled; }
+    std::uint32_t smaller_node(std::uint64_t edge) const { return std::uint32_t(edge / kRanks); }
+    std::uint32_t larger_node(std::uint64_t edge) const { return smaller_node(edge) + forward_[edge % kRanks].offset; }
 
     void rank_steps(const Lattice& lattice) {
         const auto steps = lattice.steps();

@@ -9,9 +9,7 @@
 namespace dstylize {
 namespace {
 
-cv::Mat mat(const Grid<float>& g) {
-    return cv::Mat(g.extent().y, g.extent().x, CV_32F, const_cast<float*>(g.data()));
-}
+cv::Mat mat(const Grid<float>& g) { return cv::Mat(g.extent().y, g.extent().x, CV_32F, const_cast<float*>(g.data())); }
 Grid<float> like(const Grid<float>& g) { return Grid<float>(g.extent()); }
 
 constexpr int kBins = 65536;
@@ -41,6 +39,24 @@ Grid<float> resized(const Grid<float>& field, Extent extent) {
         const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
         transform(out, [lo = *lo, hi = *hi](float v) { return std::clamp(v, lo, hi); });
     }
+    return out;
+}
+
+Picture resized(const Picture& picture, Extent extent) {
+    if (picture.extent() == extent) return picture;
+    const auto scaled = [](int channel, int factor, int divisor) {
+        return std::uint8_t(std::min(255, (channel * factor + divisor / 2) / divisor));
+    };
+    Picture source = picture;  // premultiplied while it is filtered
+    for (Rgba8& p : source)
+        if (p.a < 255) p = {scaled(p.r, p.a, 255), scaled(p.g, p.a, 255), scaled(p.b, p.a, 255), p.a};
+    Picture out(extent);
+    const cv::Mat from(source.extent().y, source.extent().x, CV_8UC4, source.data());
+    cv::Mat to(extent.y, extent.x, CV_8UC4, out.data());
+    const bool grows = extent.x > source.extent().x || extent.y > source.extent().y;
+    cv::resize(from, to, to.size(), 0, 0, grows ? cv::INTER_CUBIC : cv::INTER_AREA);
+    for (Rgba8& p : out)
+        if (p.a > 0 && p.a < 255) p = {scaled(p.r, 255, p.a), scaled(p.g, 255, p.a), scaled(p.b, 255, p.a), p.a};
     return out;
 }
 

@@ -21,6 +21,8 @@ float percentile(const Grid<float>& field, float percent);
 Grid<float> rank(const Grid<float>& field);
 /// `field` at another extent: area average when it shrinks, cubic when it grows.
 Grid<float> resized(const Grid<float>& field, Extent extent);
+/// The same for a picture; transparent pixels lend no colour to their neighbours.
+Picture resized(const Picture& picture, Extent extent);
 
 /// Luma of the sRGB values over white, in [0, 1], one per pixel.
 Grid<float> luma_plane(const Picture& picture);

@@ -102,15 +102,24 @@ class TilePainter {
         return {sum.r * share, sum.g * share, sum.b * share, sum.a * share};
     }
 
+    /// The ground under a pixel of the output.
+    Rgba ground(int x, int y) const {
+        if (!list_.paper.picture) return list_.paper.colour;
+        const Picture& picture = *list_.paper.picture;
+        const auto at = [](int i, int count, int size) { return int(std::int64_t(2 * i + 1) * count / (2 * size)); };
+        const Rgba8 p = picture(at(x, picture.extent().x, out_.extent().x), at(y, picture.extent().y, out_.extent().y));
+        return {float(p.r) / 255, float(p.g) / 255, float(p.b) / 255, float(p.a) / 255};
+    }
+
     void lay_on_paper() {
-        const Rgba paper = list_.paper.colour;
-        const bool textured = list_.paper.grain > 0 && paper.a > 0;
+        const bool textured = list_.paper.grain > 0 && list_.paper.colour.a > 0;
         const float* grain = textured ? grain_.block(x0_, y0_, width_, height_).data() : nullptr;
         for (int y = 0; y < height_; ++y) {
             Rgba8* row = out_.row(y0_ + y) + x0_;
             for (int x = 0; x < width_; ++x) {
                 const float light = textured ? 1 + list_.paper.grain * *grain++ : 1.0f;
                 const Premultiplied ink = mean_ink(x, y);
+                const Rgba paper = ground(x0_ + x, y0_ + y);
                 const float rest = (1 - ink.a) * paper.a;
                 auto under = [&](float v) { return rest * std::clamp(v * light, 0.0f, 1.0f); };
                 row[x] =

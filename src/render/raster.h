@@ -18,6 +18,7 @@ struct RasterOptions {
 /// of one when strokes are thinner than 1.5 pixels on average: hairlines fade instead of breaking, and dense
 /// ones keep their tone. Strokes are the smooth curves through their points at any size (smooth_line).
 /// Grain is keyed by output pixel.
+/// A paper picture is sampled at pixel centres: bring it to the output's size before.
 /// The same list and size give the same bytes for any number of threads. Beyond the result it holds
 /// the flattened centrelines and, per thread, one tile of at most 128 x 128 samples.
 /// Throws Error(cancelled).

@@ -1,0 +1,72 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "app/commands.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/report.h"
+#include "pipeline/replay.h"
+
+namespace dstylize::app {
+namespace {
+
+CodecOptions codec_options(const Arguments& arguments) {
+    CodecOptions options;
+    options.max_memory_bytes = arguments.max_memory;
+    options.allow_damaged = arguments.allow_damaged;
+    return options;
+}
+
+void refuse_folder(const std::filesystem::path& input) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(input, ignored))
+        throw Error(ErrorCode::bad_usage, input.string(), "is a folder", "give one picture; folders are not drawn yet");
+}
+
+void run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec, Interrupt& interrupt) {
+    Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
+    Work work;
+    work.stop = interrupt.token();
+    work.threads = arguments.threads;
+    work.progress = [&](std::string_view step, double share_done) {
+        interrupt.set_writing(step == "writing");
+        progress.begin(step, share_done);
+    };
+    const RunReport report = run(request, codec, work);
+    progress.finish();
+    if (arguments.verbose) std::fputs(verbose_report(report, progress).c_str(), stderr);
+    if (arguments.json)
+        print(json_report(report, progress));
+    else if (request.dry_run)
+        print(dry_run_report(report));
+}
+
+}  // namespace
+
+void draw(const Arguments& arguments) {
+    const RunRequest request = draw_request(arguments);
+    refuse_folder(request.input);
+    Interrupt interrupt;
+    PictureCodec codec(codec_options(arguments));  // loads while the style is read
+    run_and_report(request, arguments, codec, interrupt);
+}
+
+void replay(const Arguments& arguments) {
+    if (arguments.names.size() < 2 || arguments.names.size() > 3)
+        throw Error(ErrorCode::bad_usage, "replay", "wants a drawing, a picture and an output",
+                    "write dstylize replay OLD IN OUT");
+    const std::filesystem::path old = arguments.names[0], input = arguments.names[1];
+    refuse_folder(old);
+    refuse_folder(input);
+    Interrupt interrupt;
+    PictureCodec codec(codec_options(arguments));
+    auto [request, input_xxh128] = replay_of(old, input, codec, arguments.max_memory);
+    if (arguments.names.size() > 2) request.outputs.emplace_back(arguments.names[2]);
+    set_output_options(request, arguments);
+    run_and_report(request, arguments, codec, interrupt);
+}
+
+}  // namespace dstylize::app

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "app/options.h"
+#include "core/error.h"
+
+namespace dstylize::app {
+
+/// Exit codes, as the manual lists them.
+enum ExitCode {
+    kDone = 0,
+    kFailed = 1,
+    kWrongUsage = 2,
+    kInputUnreadable = 3,
+    kOutputUnwritable = 4,
+    kInterrupted = 130
+};
+ExitCode exit_code(ErrorCode code);
+
+/// Each runs one form of the program to its end. They throw Error.
+void draw(const Arguments& arguments);
+void replay(const Arguments& arguments);
+void list_styles(const Arguments& arguments);
+
+/// Writes to standard output. Throws Error(cannot_write).
+void print(const std::string& text);
+
+}  // namespace dstylize::app

@@ -1,0 +1,241 @@
+// The command line as CLI11 options, in groups; rare ones appear in --help-all only. completions/ and
+// docs/dstylize.1 repeat this list by hand, and a contract test compares them.
+#include "app/options.h"
+
+#include <filesystem>
+#include <limits>
+
+#include "core/error.h"
+#include "pipeline/control_text.h"
+
+namespace dstylize::app {
+namespace {
+
+constexpr const char* kStyle = "Style";
+constexpr const char* kHand = "By hand";
+constexpr const char* kOutput = "Output";
+constexpr const char* kRun = "Run";
+constexpr int kHelpColumn = 30;
+/// What the codec needs before it has seen a picture, and a little more.
+constexpr std::uint64_t kLeastMemory = 256u << 20;
+
+class HelpFormatter final : public CLI::Formatter {
+  public:
+    explicit HelpFormatter(std::string usage) : usage_(std::move(usage)) { column_width(kHelpColumn); }
+    std::string make_usage(const CLI::App*, std::string) const override { return usage_; }
+    std::string make_description(const CLI::App*) const override { return ""; }
+    std::string make_positionals(const CLI::App*) const override { return ""; }
+    std::string make_option_opts(const CLI::Option* option) const override {
+        return option->get_type_size() == 0 ? "" : " " + option->get_type_name();
+    }
+
+  private:
+    std::string usage_;
+};
+
+const char* usage(Parser::Form form) {
+    switch (form) {
+        case Parser::Form::draw:
+            return "dstylize IN OUT [options]       redraw a picture as one branching structure\n"
+                   "dstylize replay OLD IN OUT      make the drawing OLD again, say at another size\n"
+                   "dstylize styles [NAME]          list the styles, or one with all its parameters\n";
+        case Parser::Form::replay:
+            return "dstylize replay OLD IN OUT [options]\n"
+                   "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
+        case Parser::Form::styles:
+            return "dstylize styles [NAME|FILE] [--fields]\n"
+                   "Lists the styles, or one with every parameter, its range and its value.\n";
+    }
+    return "";
+}
+
+Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy) {
+    return Error(ErrorCode::bad_usage, what, problem, remedy);
+}
+
+}  // namespace
+
+Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(arguments) {
+    app_.formatter(std::make_shared<HelpFormatter>(usage(form)));
+    app_.set_help_flag();
+    app_.allow_extras();
+    app_.add_option("names", arguments_.names);
+    if (form == Form::draw) {
+        add_style_options();
+        add_hand_options();
+    }
+    if (form != Form::styles) {
+        add_output_options();
+        add_run_options();
+    } else {
+        add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
+    }
+    add_help_options();
+}
+
+CLI::Option* Parser::add(CLI::Option* option, const char* group, bool common) {
+    option->group(group);
+    if (!common) rare_.push_back(option);
+    return option;
+}
+
+void Parser::add_style_options() {
+    Arguments& a = arguments_;
+    add(app_.add_option("-s,--style", a.style, "vine, ink, …, or a .toml file; default vine"), kStyle)
+        ->type_name("NAME");
+    add(app_.add_option("--set", a.settings, "change a parameter, as stage.tone.carry=0.6"), kStyle)
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    add(app_.add_option("--detail", a.detail, "lattice nodes on the long side, 16 to 16384"), kStyle)
+        ->type_name("N")
+        ->check(CLI::Range(16, 16384).description(""));
+    add(app_.add_option("--seed", a.seed, "of all randomness; default 1"), kStyle)
+        ->type_name("N")
+        ->check(CLI::Range(std::int64_t(0), std::numeric_limits<std::int64_t>::max()).description(""));
+}
+
+void Parser::add_hand_options() {
+    Arguments& a = arguments_;
+    add(app_.add_option("--root", a.roots, "where it grows from: x,y or bottom … darkest"), kHand)
+        ->type_name("PLACE")
+        ->allow_extra_args(false);
+    add(app_.add_option("--mask", a.mask, "grow only where this picture is white"), kHand)->type_name("FILE");
+    add(app_.add_option("--importance", a.importance, "multiply the importance by this picture"), kHand)
+        ->type_name("FILE");
+    add(app_.add_option("--importance-mode", a.importance_mode, "multiply (default) or replace"), kHand, false)
+        ->type_name("MODE")
+        ->check(CLI::IsMember({"multiply", "replace"}).description(""));
+    add(app_.add_option("--endpoints", a.endpoints, "paths must arrive here: lines of x,y[,STAGE]"), kHand, false)
+        ->type_name("FILE");
+    add(app_.add_option("--background", a.background, "input, none, #rrggbb or a picture"), kHand)->type_name("WHAT");
+    add(app_.add_option("--show", a.show, "write importance, weights, tree, … instead"), kHand)->type_name("STAGE");
+}
+
+void Parser::add_output_options() {
+    Arguments& a = arguments_;
+    CLI::Option* size = add(app_.add_option("--size", a.size, "2400, 150%, 30cm@300dpi or A3"), kOutput);
+    size->type_name("SIZE");
+    add(app_.add_option("--scale", a.scale, "output pixels for each of the input's"), kOutput, false)
+        ->type_name("X")
+        ->check(CLI::Range(1e-3, 1e3).description(""))
+        ->excludes(size);
+    add(app_.add_option("-o,--output", a.outputs, "one more output: png jpg tif webp svg pdf json"), kOutput)
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    add(app_.add_option("--format", a.format, "of outputs without extension, as of -"), kOutput, false)
+        ->type_name("FORMAT");
+    add(app_.add_option("--quality", a.quality, "jpg, webp: 1 to 100; default 92"), kOutput, false)
+        ->type_name("N")
+        ->check(CLI::Range(1, 100).description(""));
+    add(app_.add_option("--compression", a.compression, "png, tif: 0 to 9, slow above the default 1"), kOutput, false)
+        ->type_name("N")
+        ->check(CLI::Range(0, 9).description(""));
+    add(app_.add_option("--recipe", a.recipe_file, "write the recipe as a style file, too"), kOutput, false)
+        ->type_name("FILE");
+    add(app_.add_flag("--no-recipe", a.no_recipe, "leave the recipe out of the outputs"), kOutput, false);
+    add(app_.add_flag("-f,--force", a.force, "replace files that dstylize did not make"), kOutput);
+    add(app_.add_flag("--dry-run", a.dry_run, "check everything, say what would be done"), kOutput);
+}
+
+void Parser::add_run_options() {
+    Arguments& a = arguments_;
+    CLI::Option* quiet = add(app_.add_flag("-q,--quiet", a.quiet, "no progress on the terminal"), kRun, false);
+    add(app_.add_flag("-v,--verbose", a.verbose, "times and counts of every step"), kRun)->excludes(quiet);
+    add(app_.add_flag("--json", a.json, "one report as JSON on standard output"), kRun, false);
+    add(app_.add_option("--threads", a.threads, "default: as many as the machine has"), kRun, false)
+        ->type_name("N")
+        ->check(CLI::Range(0, 1024).description(""));
+    add(app_.add_option("--max-memory", a.max_memory, "refuse what needs more; default 4G"), kRun, false)
+        ->type_name("SIZE")
+        ->transform(CLI::AsSizeValue(false).description(""));
+    add(app_.add_flag("--allow-damaged", a.allow_damaged, "take what can be read of a damaged picture"), kRun, false);
+}
+
+void Parser::add_help_options() {
+    const char* group = form_ == Form::styles ? kStyle : kRun;
+    add(app_.add_flag("-h,--help", arguments_.help, "this page"), group, form_ != Form::draw);
+    if (form_ != Form::draw) return;
+    add(app_.add_flag("--help-all", arguments_.help_all, "every option; see also man dstylize"), group);
+    add(app_.add_flag("--version", arguments_.version, "name the version"), group, false);
+}
+
+void Parser::parse(std::vector<std::string> words) {
+    std::reverse(words.begin(), words.end());  // CLI11 takes them from the back
+    try {
+        app_.parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+        throw usage_error("", error.what(), "see dstylize --help");
+    }
+    if (arguments_.max_memory < kLeastMemory)
+        throw usage_error("--max-memory", "is less than reading any picture takes", "give at least 256M");
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app_.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& word : app_.remaining()) {
+        if (word.size() < 2 || word[0] != '-') continue;
+        const std::string near = word.starts_with("--") ? nearest_name(word.substr(0, word.find('=')), known) : "";
+        throw usage_error(word, "unknown option",
+                          near.empty() ? "see dstylize --help-all" : "did you mean '" + near + "'?");
+    }
+}
+
+std::string Parser::help(bool all) {
+    std::vector<std::string> groups;
+    for (CLI::Option* option : rare_) {
+        groups.push_back(option->get_group());
+        if (!all) option->group("");
+    }
+    std::string text = app_.help();
+    // CLI11 puts two empty lines between groups: the page would not fit a screen.
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+    text.erase(text.find_last_not_of('\n') + 2);
+    for (std::size_t i = 0; i < rare_.size(); ++i) rare_[i]->group(groups[i]);
+    return text;
+}
+
+void set_output_options(RunRequest& request, const Arguments& a) {
+    for (const std::string& output : a.outputs) request.outputs.emplace_back(output);
+    if (a.json && std::find(request.outputs.begin(), request.outputs.end(), "-") != request.outputs.end())
+        throw usage_error("--json", "the report and the output would share standard output", "write to a file");
+    request.format = a.format;
+    if (!a.size.empty()) request.size = parsed_output_size(a.size);
+    if (a.scale > 0) request.size = {OutputSize::Kind::scale, a.scale, OutputSize::kDefaultDpi, {}, 0, 0};
+    request.quality = a.quality;
+    request.compression = a.compression;
+    request.keep_recipe = !a.no_recipe;
+    request.recipe_file = a.recipe_file;
+    request.force = a.force;
+    request.dry_run = a.dry_run;
+    request.max_memory_bytes = a.max_memory;
+}
+
+RunRequest draw_request(const Arguments& a) {
+    RunRequest request;
+    if (a.names.empty()) throw usage_error("", "no picture is named", "write dstylize IN OUT, or see dstylize --help");
+    if (a.names.size() > 2)
+        throw usage_error(a.names[2], "is one name too many", "write dstylize IN OUT; further outputs with -o");
+    request.input = a.names[0];
+    if (a.names.size() > 1) request.outputs.emplace_back(a.names[1]);
+    set_output_options(request, a);
+    request.style = a.style;
+    for (const std::string& setting : a.settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw usage_error("--set " + setting, "not a parameter and its value", "write section.key=value");
+        request.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+    }
+    request.detail = a.detail;
+    request.seed = std::uint64_t(a.seed);
+    request.importance.path = a.importance;
+    request.importance_replaces = a.importance_mode == "replace";
+    if (!a.importance_mode.empty() && a.importance.empty())
+        throw usage_error("--importance-mode", "there is no map for it", "give --importance FILE");
+    request.mask.path = a.mask;
+    request.endpoints.path = a.endpoints;
+    for (const std::string& root : a.roots) request.roots.push_back(parsed_root(root));
+    if (!a.background.empty()) request.background = parsed_background(a.background);
+    request.show = a.show;
+    return request;
+}
+
+}  // namespace dstylize::app

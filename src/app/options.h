@@ -1,0 +1,58 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pipeline/run.h"
+
+namespace dstylize::app {
+
+/// What the options say, as text where the library parses it.
+struct Arguments {
+    std::vector<std::string> names;  ///< IN and OUT, or OLD, IN and OUT
+    std::vector<std::string> outputs, settings, roots;
+    std::string style = "vine", importance, importance_mode, mask, endpoints, background, show;
+    std::string size, format, recipe_file;
+    double scale = 0;
+    int detail = 0, threads = 0, quality = 92, compression = 1;
+    std::int64_t seed = 1;
+    std::uint64_t max_memory = 4ull << 30;
+    bool force = false, dry_run = false, no_recipe = false, allow_damaged = false;
+    bool quiet = false, verbose = false, json = false;
+    bool help = false, help_all = false, version = false;
+    bool fields = false;  ///< of `styles`
+};
+
+/// The parser of one form of the command line, which fills in `arguments` (they must live as long).
+class Parser {
+  public:
+    enum class Form { draw, replay, styles };
+    Parser(Form form, Arguments& arguments);
+
+    /// Throws Error(bad_usage).
+    void parse(std::vector<std::string> words);
+    /// The text of --help, or with every option that of --help-all.
+    std::string help(bool all);
+
+  private:
+    CLI::Option* add(CLI::Option* option, const char* group, bool common = true);
+    void add_style_options();
+    void add_hand_options();
+    void add_output_options();
+    void add_run_options();
+    void add_help_options();
+
+    Form form_;
+    Arguments& arguments_;
+    CLI::App app_;
+    std::vector<CLI::Option*> rare_;
+};
+
+/// The run that the arguments of the main form ask for. Throws Error(bad_usage).
+RunRequest draw_request(const Arguments& arguments);
+/// The same for what `draw` and `replay` share: outputs and how they are written.
+void set_output_options(RunRequest& request, const Arguments& arguments);
+
+}  // namespace dstylize::app

@@ -1,0 +1,74 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <stop_token>
+
+namespace dstylize::app {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto kSilentFor = 1s;
+constexpr auto kRedraw = 200ms;
+constexpr std::size_t kLongestStep = 50;  // of a line that must not wrap
+constexpr const char* kClearLine = "\r\033[K";
+
+}  // namespace
+
+Progress::Progress(bool shows_line) {
+    if (shows_line) drawer_ = std::jthread([this](const std::stop_token& stop) { keep_drawing(stop); });
+}
+
+Progress::~Progress() { finish(); }
+
+void Progress::begin(std::string_view step, double share_done) {
+    const std::scoped_lock lock(mutex_);
+    end_step();
+    steps_.emplace_back(step, 0.0);
+    share_done_ = share_done;
+}
+
+void Progress::end_step() {
+    const Clock::time_point now = Clock::now();
+    if (!steps_.empty()) steps_.back().second = std::chrono::duration<double>(now - step_start_).count();
+    step_start_ = now;
+}
+
+void Progress::finish() {
+    if (is_finished_) return;
+    is_finished_ = true;
+    if (drawer_.joinable()) {
+        drawer_.request_stop();
+        drawer_.join();
+    }
+    const std::scoped_lock lock(mutex_);
+    end_step();
+    finished_ = step_start_;
+}
+
+double Progress::seconds() const { return std::chrono::duration<double>(finished_ - start_).count(); }
+
+void Progress::keep_drawing(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    bool drawn = false;
+    wake_.wait_for(lock, stop, kSilentFor, [] { return false; });
+    while (!stop.stop_requested()) {
+        if (!steps_.empty()) {
+            const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep),
+                                           100 * share_done_);
+            if (share_done_ > 0.05) line += fmt::format(" · {:.0f} s left", elapsed / share_done_ - elapsed);
+            std::fputs(line.c_str(), stderr);
+            std::fflush(stderr);
+            drawn = true;
+        }
+        wake_.wait_for(lock, stop, kRedraw, [] { return false; });
+    }
+    if (drawn) {
+        std::fputs(kClearLine, stderr);
+        std::fflush(stderr);
+    }
+}
+
+}  // namespace dstylize::app

@@ -1,0 +1,302 @@
+// One picture from file to files. Everything that can be refused without computing is refused first, and
+// nothing is written before every output is made.
+#include "pipeline/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "formats/files.h"
+#include "imaging/filters.h"
+#include "pipeline/content_hash.h"
+#include "pipeline/control_text.h"
+#include "pipeline/deliver.h"
+#include "pipeline/outputs.h"
+#include "pipeline/recipe.h"
+#include "pipeline/stylize.h"
+#include "pipeline/version.h"
+
+namespace dstylize {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The progress of one part as a share of the whole.
+Work part(const Work& work, double from, double to) {
+    Work inner = work;
+    if (work.progress)
+        inner.progress = [&work, from, to](std::string_view step, double share) {
+            work.progress(step, from + (to - from) * share);
+        };
+    return inner;
+}
+
+std::string name_of(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
+
+struct ReadFile {
+    std::vector<std::byte> bytes;
+    FileMark mark;
+};
+
+class Run {
+  public:
+    Run(const RunRequest& request, PictureCodec& codec, const Work& work)
+        : request_(request), codec_(codec), work_(work) {}
+
+    RunReport report() {
+        load_style();
+        plan_outputs();
+        work_.report("reading", 0);
+        read_inputs();
+        check_memory();
+        describe();
+        if (request_.dry_run) return std::move(report_);
+        std::vector<std::vector<std::byte>> files = request_.show.empty() ? drawn_files() : shown_files();
+        work_.report("writing", 0.98);
+        write(files);
+        return std::move(report_);
+    }
+
+  private:
+    void load_style() {
+        std::vector<Setting> settings = request_.settings;
+        if (request_.detail > 0) settings.push_back({"lattice.detail", std::to_string(request_.detail)});
+        style_ = request_.style_toml ? parse_style(*request_.style_toml, request_.style, settings)
+                                     : dstylize::load_style(request_.style, settings);
+        if (request_.show.empty()) return;
+        const std::vector<std::string> known = shown_names(style_);
+        if (std::find(known.begin(), known.end(), request_.show) != known.end()) return;
+        const std::string near = nearest_name(request_.show, known);
+        throw Error(
+            ErrorCode::bad_usage, "", "--show " + request_.show + ": there is nothing of that name to show",
+            near.empty() ? "`dstylize styles --fields` lists what can be shown" : "did you mean '" + near + "'?");
+    }
+
+    void plan_outputs() {
+        const std::vector<fs::path> inputs{request_.input,          request_.importance.path, request_.mask.path,
+                                           request_.endpoints.path, request_.background.file, request_.style};
+        outputs_ = planned_outputs(request_.outputs, request_.format, inputs, request_.force);
+        if (!request_.recipe_file.empty()) check_target(request_.recipe_file, inputs, request_.force);
+        for (const PlannedOutput& output : outputs_) {
+            if (!request_.show.empty() && output.format->holds != Holds::picture)
+                throw Error(ErrorCode::bad_usage, output.name(), "--show makes a picture",
+                            "write a png, jpg, tif or webp");
+            if (request_.background.kind == Background::Kind::none && output.format->holds != Holds::skeleton &&
+                !output.format->alpha)
+                throw Error(ErrorCode::bad_usage, output.name(),
+                            fmt::format("{} cannot be transparent", output.format->name),
+                            "write png, tif, webp, svg or pdf, or give another --background");
+        }
+    }
+
+    ReadFile file(const fs::path& path, const std::string& expected_xxh128 = "") {
+        ReadFile out{read_file(path, request_.max_memory_bytes), {}};
+        out.mark = {path.string(), content_hash(out.bytes)};
+        if (!expected_xxh128.empty() && expected_xxh128 != out.mark.xxh128)
+            throw Error(ErrorCode::cannot_read, name_of(path), "is not the file that the recipe names",
+                        "bring back the one of that content");
+        return out;
+    }
+
+    Picture picture(const AuxiliaryFile& auxiliary, std::optional<FileMark>& mark) {
+        ReadFile read = file(auxiliary.path, auxiliary.xxh128);
+        mark = read.mark;
+        return codec_.decode(read.bytes, name_of(auxiliary.path)).picture;
+    }
+
+    void read_inputs() {
+        ReadFile read = file(request_.input);
+        recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
+        input_ = codec_.decode(read.bytes, name_of(request_.input));
+        frame_ = output_frame(request_.size, input_.picture.extent());
+        controls_.seed = request_.seed;
+        controls_.roots = request_.roots;
+        controls_.importance_replaces = request_.importance_replaces;
+        if (!request_.importance.path.empty()) controls_.importance = picture(request_.importance, recipe_.importance);
+        if (!request_.mask.path.empty()) controls_.mask = picture(request_.mask, recipe_.mask);
+        if (!request_.endpoints.path.empty()) read_endpoints();
+        if (request_.background.kind == Background::Kind::file)
+            ground_ = picture({request_.background.file, request_.background_xxh128}, recipe_.background_file);
+        if (request_.background.kind == Background::Kind::input) ground_ = input_.picture;
+    }
+
+    void read_endpoints() {
+        const ReadFile read = file(request_.endpoints.path, request_.endpoints.xxh128);
+        const std::string name = name_of(request_.endpoints.path);
+        recipe_.endpoints = read.mark;
+        controls_.endpoints =
+            endpoint_rows({reinterpret_cast<const char*>(read.bytes.data()), read.bytes.size()}, name);
+        std::vector<std::string> stages;
+        for (const StageParameters& stage : style_.stages) stages.push_back(stage.name);
+        check_endpoints(controls_.endpoints, input_.picture.extent(), stages, name);
+    }
+
+    void check_memory() const {
+        // Measured: raster, codec and shared memory per output pixel; fields, labels and heights per node.
+        constexpr double kBytesPerPixel = 24, kBytesPerNode = 220;
+        const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
+        const double nodes = double(lattice_extent(input_.picture.extent(), style_.lattice.detail).count());
+        const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);
+        if (wanted > double(request_.max_memory_bytes))
+            throw Error(ErrorCode::bad_usage, name_of(request_.input),
+                        fmt::format("needs about {:.1f} GiB of memory", wanted / double(1u << 30)),
+                        pixels * kBytesPerPixel == wanted ? "ask for a smaller --size, or raise --max-memory"
+                                                          : "ask for less --detail, or raise --max-memory");
+        for (const PlannedOutput& output : outputs_) {
+            const int most = most_pixels(output.format->id), side = frame_.size_px.long_side();
+            if (output.format->holds == Holds::picture && request_.show.empty() && side > most)
+                throw Error(ErrorCode::bad_usage, output.name(),
+                            fmt::format("{} pixels are more than {} holds ({})", side, output.format->name, most),
+                            "ask for a smaller --size, or write a png or tif");
+        }
+    }
+    bool rasters() const {
+        return std::any_of(outputs_.begin(), outputs_.end(),
+                           [](const PlannedOutput& o) { return o.format->holds == Holds::picture; });
+    }
+
+    /// Fills in the recipe, and what is known of the report before anything is drawn.
+    void describe() {
+        recipe_.program = fmt::format("dstylize {}", version());
+        recipe_.seed = request_.seed;
+        recipe_.importance_replaces = request_.importance_replaces;
+        for (const RootChoice& root : request_.roots) recipe_.roots.push_back(root_text(root));
+        switch (request_.background.kind) {
+            case Background::Kind::input: recipe_.background = "input"; break;
+            case Background::Kind::none: recipe_.background = "none"; break;
+            case Background::Kind::colour: recipe_.background = colour_text(request_.background.colour); break;
+            case Background::Kind::style:
+            case Background::Kind::file: break;
+        }
+        recipe_.size = output_size_text(request_.size);
+        recipe_.style_toml = style_toml(style_);
+
+        report_.input = name_of(request_.input);
+        report_.input_xxh128 = recipe_.input.xxh128;
+        report_.style = style_.name;
+        report_.seed = request_.seed;
+        report_.picture = input_.picture.extent();
+        report_.lattice = lattice_extent(report_.picture, style_.lattice.detail);
+        report_.recipe = recipe_toml(recipe_);
+        report_.dry_run = request_.dry_run;
+        for (const PlannedOutput& output : outputs_)
+            report_.outputs.push_back({output.name(), std::string(output.format->name),
+                                       request_.show.empty() ? frame_.size_px : report_.lattice, 0, output.replaces});
+    }
+
+    DeliveryOptions delivery_options() const {
+        DeliveryOptions options;
+        options.frame = frame_;
+        options.quality = request_.quality;
+        options.compression = request_.compression;
+        options.title = fmt::format("{} ({})", fs::path(recipe_.input.name).stem().string(), style_.name);
+        options.metadata.dpi = input_.metadata.dpi;
+        for (const char* key : {"author", "copyright", "description"})
+            if (const std::string text = input_.metadata.find(key); !text.empty())
+                options.metadata.text.emplace_back(key, text);
+        options.metadata.text.emplace_back("software", recipe_.program);
+        if (request_.keep_recipe) options.metadata.text.emplace_back("recipe", report_.recipe);
+        return options;
+    }
+
+    void lay_ground(Paper& paper) {
+        switch (request_.background.kind) {
+            case Background::Kind::style: return;
+            case Background::Kind::none: paper.colour.a = 0; break;
+            case Background::Kind::colour: paper.colour = request_.background.colour; break;
+            case Background::Kind::input:
+            case Background::Kind::file: {
+                Picture ground = middle_part(ground_, frame_.size_px);
+                if (ground.extent().long_side() > frame_.size_px.long_side()) ground = resized(ground, frame_.size_px);
+                paper.picture = std::make_shared<Picture>(std::move(ground));
+                ground_ = {};
+                break;
+            }
+        }
+        paper.grain = 0;
+    }
+
+    std::vector<std::vector<std::byte>> drawn_files() {
+        Drawing drawing;
+        try {
+            drawing = stylize(input_.picture, style_, controls_, part(work_, 0.08, 0.85));
+        } catch (const Error& error) {
+            rethrow_named(error);
+        }
+        report_.unreached = drawing.unreached;
+        report_.nodes = drawing.dendrite.size();
+        report_.strokes = drawing.strokes;
+        for (std::size_t s = 0; s < drawing.endpoints.size(); ++s)
+            report_.endpoints.emplace_back(drawing.stage_names[s], drawing.endpoints[s]);
+        lay_ground(drawing.list.paper);
+        const DeliveryOptions options = delivery_options();
+        input_.picture = {};
+        Delivery delivery(std::move(drawing), options, codec_);
+        return each_output(
+            [&](const PlannedOutput& output) { return delivery.file(*output.format, output.name(), work_); });
+    }
+
+    std::vector<std::vector<std::byte>> shown_files() {
+        Picture picture;
+        try {
+            picture = shown(request_.show, input_.picture, style_, controls_, part(work_, 0.08, 0.85));
+        } catch (const Error& error) {
+            rethrow_named(error);
+        }
+        DeliveryOptions options = delivery_options();
+        options.frame = {picture.extent(), 0, 0, 0};
+        options.metadata.dpi = 0;
+        return each_output([&](const PlannedOutput& output) {
+            return picture_file(picture, *output.format, options, codec_, output.name());
+        });
+    }
+
+    template <class Make>
+    std::vector<std::vector<std::byte>> each_output(Make make) {
+        std::vector<std::vector<std::byte>> files;
+        for (std::size_t i = 0; i < outputs_.size(); ++i) {
+            work_.report("painting " + outputs_[i].name(), 0.85 + 0.13 * double(i) / double(outputs_.size()));
+            files.push_back(make(outputs_[i]));
+        }
+        return files;
+    }
+
+    /// Growth knows pictures, not files: what it cannot do is the mask's fault if there is one.
+    [[noreturn]] void rethrow_named(const Error& error) const {
+        if (!error.file().empty() || error.code() == ErrorCode::cancelled) throw error;
+        const bool about_mask = error.code() == ErrorCode::failed && !request_.mask.path.empty();
+        throw Error(error.code(), name_of(about_mask ? request_.mask.path : request_.input), error.problem(),
+                    error.remedy());
+    }
+
+    void write(const std::vector<std::vector<std::byte>>& files) {
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            work_.check();
+            write_file_atomically(outputs_[i].path, files[i]);
+            report_.outputs[i].bytes = files[i].size();
+        }
+        if (!request_.recipe_file.empty())
+            write_file_atomically(request_.recipe_file, std::as_bytes(std::span(report_.recipe)));
+    }
+
+    const RunRequest& request_;
+    PictureCodec& codec_;
+    const Work& work_;
+    Style style_;
+    std::vector<PlannedOutput> outputs_;
+    DecodedPicture input_;
+    OutputFrame frame_;
+    Controls controls_;
+    Picture ground_;
+    Recipe recipe_;
+    RunReport report_;
+};
+
+}  // namespace
+
+RunReport run(const RunRequest& request, PictureCodec& codec, const Work& work) {
+    return Run(request, codec, work).report();
+}
+
+}  // namespace dstylize
