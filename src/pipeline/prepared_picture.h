@@ -9,6 +9,6 @@ struct PreparedPicture {
     Fields fields;
     Grid<std::uint8_t> passable;
 };
-PreparedPicture prepared(const Picture& picture, const Style& style, const Controls& controls);
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls);
 
 }  // namespace dstylize
