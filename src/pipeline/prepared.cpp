@@ -9,13 +9,15 @@
 namespace dstylize {
 namespace {
 
-Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls, Extent lattice) {
+Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
+                                  Extent lattice) {
     constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
     Grid<float> mask;
     if (controls.mask) mask = resized(luma_plane(*controls.mask), lattice);
     const int short_side = std::min(lattice.x, lattice.y);
-    const int margin = int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
+    const int margin =
+        int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
     Grid<std::uint8_t> out(lattice);
     for (int j = margin; j < lattice.y - margin; ++j)
         for (int i = margin; i < lattice.x - margin; ++i)
