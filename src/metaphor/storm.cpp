@@ -14,7 +14,7 @@ class Storm final : public Metaphor {
     Storm() {
         glow_.core = {0.6f, 0.78f, 1, 1};
         glow_.core_gain = 2.6f;
-        glow_.ambient = 0.42f;
+        glow_.ambient = 0.38f;
         glow_.cast = 9;
         glow_.cast_radius = 65;
     }
