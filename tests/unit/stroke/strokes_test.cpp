@@ -85,8 +85,9 @@ TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
     const Widths widths = drawn.widths(p);
     for (const Branch& branch : drawn.b.branches) {
         ASSERT_LE(widths.widths()[branch.nodes.back()], p.tip_width + 1e-4f);
-        if (branch.parent_branch != Branch::kNone)
+        if (branch.parent_branch != Branch::kNone) {
             ASSERT_LE(widths.widths()[branch.nodes[1]], widths.widths()[branch.nodes[0]] + 0.2f);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 
 #include <algorithm>
 
@@ -33,7 +33,7 @@ Extent lattice_extent(Extent picture, int detail) {
     return {nodes(picture.x), nodes(picture.y)};
 }
 
-Prepared prepared(const Picture& picture, const Style& style, const Controls& controls) {
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls) {
     const Extent lattice = lattice_extent(picture.extent(), style.lattice.detail);
     UserMaps maps;
     if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), lattice);
