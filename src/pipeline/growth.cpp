@@ -128,12 +128,22 @@ std::function<float(Vec2f)> spur_length(Fields& fields, const StrokeParameters& 
     };
 }
 
+/// What a unit of length costs on the nodes that a stage added, as a share of its dearest node.
+void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t first, const WeightedLattice& graph,
+                  const StageParameters& stage) {
+    for (std::size_t v = first; v < drawn.size(); ++v) {
+        const std::uint32_t n = index(drawn.node[v]);
+        node_cost[n] = float(graph.weight[n]) / float(stage.levels);
+    }
+}
+
 }  // namespace
 
 Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
            Extent picture_px, const StageObserver& observer, const Work& work) {
     Growth growth(Lattice(fields.extent(), style.lattice.neighbourhood));
     Grown out;
+    out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
         work.report(stage.name + ": weights", (0.2 + double(s)) / (double(style.stages.size()) + 1));
@@ -156,7 +166,9 @@ Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& styl
             bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
         if (observer) observer({stage, graph, plan, endpoints});
         out.endpoints.push_back(endpoints.size());
+        const std::size_t before = growth.dendrite().size();
         out.unreached += growth.graft(plan, endpoints, std::uint8_t(s));
+        record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));
     return out;
