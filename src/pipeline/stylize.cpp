@@ -90,7 +90,13 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const Branching b = branching(out.dendrite);
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Widths widths(out.dendrite, b, style.width, {fields["tone"], fields["lines"], fields["importance"]}, u);
+    Grid<float> half_width;
+    if (style.width.room_share > 0) {
+        half_width = fields["room"];
+        transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
+    }
+    Widths widths(out.dendrite, b, style.width,
+                  {fields["tone"], fields["lines"], fields["importance"], half_width.empty() ? nullptr : &half_width}, u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
     work.report("drawing", 0.85);
@@ -98,7 +104,7 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const std::vector<VariableStroke> drawn = strokes(lines, out.dendrite, b, widths.widths(), to);
     out.strokes = drawn.size();
     out.width_u = widths.widths();
-    for (float& w : out.width_u) w /= u;
+    for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
     out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale, drawn,
                                      [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
                                      controls.seed});

@@ -30,6 +30,7 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"tone", "", "weight of tone width: wanted tone / line density"}, tone, 0, 1);
     v.number({"importance", "", "weight of importance width"}, importance, 0, 1);
     v.number({"branch", "", "weight of branch width: grows with the number of tips that a node carries"}, branch, 0, 1);
+    v.number({"tips", "", "weight of tips width: the narrowest times a power of the tips that a node carries"}, tips, 0, 1);
     v.number({"constant", "", "weight of a constant width"}, constant, 0, 1);
     v.number({"narrowest", "u", "narrowest stroke"}, narrowest, 0.05f, 20);
     v.number({"widest", "u", "widest stroke, the trunk apart"}, widest, 0.1f, 60);
@@ -41,6 +42,9 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"importance_gamma", "", "above 1 keeps unimportant strokes thin"}, importance_gamma, 0.3f, 4);
     v.number({"branch_exponent", "", "share of tips to this power is the branch width (pipe model: 0.5)"},
              branch_exponent, 0.1f, 1);
+    v.number({"tips_exponent", "", "number of tips to this power, times the narrowest, is the tips width"}, tips_exponent,
+             0.05f, 1);
+    v.number({"room_share", "", "most of the shape's half width that a stroke may take; 0: no limit"}, room_share, 0, 2);
     v.number({"trunk", "u", "least width of the trunk at its root, 0: no trunk"}, trunk, 0, 80);
     v.number({"trunk_least_tone", "", "share of the trunk's width that stays where the picture is light"},
              trunk_least_tone, 0, 1);
@@ -81,7 +85,7 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
 float Widths::raw_width(std::uint32_t v, float tone_width) const {
     const WidthParameters& p = parameters_;
     const float narrow = p.narrowest * u_, wide = p.widest * u_;
-    const float total = p.tone + p.importance + p.branch + p.constant;
+    const float total = p.tone + p.importance + p.branch + p.tips + p.constant;
     if (total <= 0) return narrow;
     const auto between = [&](float share) { return narrow + (wide - narrow) * share; };
     float sum = p.tone * tone_width + p.constant * p.constant_width * u_;
@@ -91,7 +95,11 @@ float Widths::raw_width(std::uint32_t v, float tone_width) const {
     if (p.branch > 0)
         sum += p.branch *
                between(std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent));
-    return std::clamp(sum / total, narrow, wide * 1.3f);
+    if (p.tips > 0) sum += p.tips * std::min(wide, narrow * std::pow(float(branching_.tips[v]), p.tips_exponent));
+    float widest = wide * 1.3f;
+    if (fields_.half_width && p.room_share > 0)
+        widest = std::clamp(p.room_share * sample(*fields_.half_width, dendrite_.position_lattice[v]), narrow, widest);
+    return std::clamp(sum / total, narrow, widest);
 }
 
 void Widths::correct(const Grid<float>& target, const Grid<float>& drawn) {
