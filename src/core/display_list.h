@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,8 @@ struct VariableStroke {
     Rgba colour;
     std::uint16_t order = 0;  ///< branch order: 0 leaves a root, n + 1 leaves a branch of order n
     std::uint8_t stage = 0;   ///< the stage that grew it
+    /// How brightly each point shines in a glowing layer, in [0, 1]; empty: 1 everywhere.
+    std::vector<float> emission = {};
 };
 
 /// A closed outline (implicitly closed polygon), filled, even-odd never needed.
@@ -33,11 +36,31 @@ using Item = std::variant<VariableStroke, Fill>;
 /// so that strokes of one colour join without a seam however they overlap.
 enum class Blend { over, max };
 
+/// What a layer's strokes do as light. Their emission E is blurred into halos B, all of it is added up and
+/// exposed per channel like a film, and screened over what lies below:
+///     light = core_gain * core * E + sum of gain * colour * B,   out = 1 - (1 - below)^m * exp(-exposure * light)
+/// with m = ambient + cast * (E blurred by cast_sigma): below is dimmed, and lit up again near the strokes.
+/// Sigmas are shares of the drawing's long side, so that every size of output glows alike.
+struct Glow {
+    struct Halo {
+        float sigma = 0.01f;
+        Rgba colour;
+        float gain = 1;
+    };
+    Rgba core;
+    float core_gain = 1;
+    std::vector<Halo> halos;
+    float exposure = 1.35f;
+    float ambient = 1;  ///< how much of the light of what lies below stays; 1: all
+    float cast = 0, cast_sigma = 0.03f;
+};
+
 /// A named group: an SVG group, later a plotter's pen. Layers are composited over one another in order.
 struct Layer {
     std::string name;
     Blend blend = Blend::over;
     std::vector<Item> items;
+    std::optional<Glow> glow = std::nullopt;  ///< set: the items are not paint but light; their colours say nothing
 };
 
 /// The ground the drawing stands on.

@@ -66,6 +66,9 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"stretch_high", "%", "luma percentile that becomes white"}, stretch_high, 51, 100);
     v.flag({"bright", "", "draw the light parts instead of the dark ones"}, bright);
     v.number({"tone_equalise", "", "share of histogram equalisation in the tone"}, tone_equalise, 0, 1);
+    v.number({"tone_local", "", "share of the surroundings' tone that is taken away: wide bright skies go dark"},
+             tone_local, 0, 1);
+    v.number({"tone_local_scale", "u", "size of those surroundings"}, tone_local_scale, 10, 500);
     v.number({"tone_white", "", "tone at and below this stays paper"}, tone_white, 0, 0.5f);
     v.number({"tone_black", "", "tone at and above this is fully inked"}, tone_black, 0.5f, 1);
     v.number({"gradient_scale", "u", "blur before the fine gradient"}, gradient_scale, 0.3f, 20);
@@ -73,6 +76,8 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"gradient_wide_share", "", "weight of the wide gradient, 0: none"}, gradient_wide_share, 0, 1);
     v.number({"gradient_percentile", "%", "gradient percentile that counts as 1"}, gradient_percentile, 50, 100);
     v.number({"gradient_gamma", "", "below 1 lifts weak gradients"}, gradient_gamma, 0.2f, 3);
+    v.number({"gradient_tone", "", "how much the gradient fades where no tone is wanted: one-sided contours"},
+             gradient_tone, 0, 1);
     v.number({"line_scale", "u", "half width of the thin lines that are looked for"}, line_scale, 0.5f, 10);
     v.number({"importance_gradient", "", "weight of the gradient in the importance"}, importance_gradient, 0, 10);
     v.number({"importance_tone", "", "weight of the tone in the importance"}, importance_tone, 0, 10);
@@ -83,8 +88,8 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"features_surround", "u", "size of the surroundings that suppress textures"}, features_surround, 2, 100);
     v.number({"features_suppress", "", "how much busy surroundings suppress a feature"}, features_suppress, 0, 1);
     v.number({"avoid_scale", "u", "size of the bright details to keep clean"}, avoid_scale, 1, 60);
-    v.number({"avoid_level", "", "how much brighter than around a detail must be; lower keeps more clean"},
-             avoid_level, 0.3f, 1);
+    v.number({"avoid_level", "", "how much brighter than around a detail must be; lower keeps more clean"}, avoid_level,
+             0.3f, 1);
     v.number({"border_width", "u", "how far inside the frame growth is discouraged"}, border_width, 1, 100);
     v.number({"smooth_noise_scale", "u", "correlation length of the smooth noise"}, smooth_noise_scale, 0.5f, 60);
     v.number({"flow_fine", "u", "window of the fine structure tensor"}, flow_fine, 1, 60);

@@ -16,8 +16,9 @@ struct FieldParameters {
     float stretch_low = 2, stretch_high = 98;
     bool bright = false;
     float tone_equalise = 0.4f, tone_white = 0.12f, tone_black = 0.90f;
+    float tone_local = 0, tone_local_scale = 140;
     float gradient_scale = 1.2f, gradient_wide_scale = 3, gradient_wide_share = 0.8f;
-    float gradient_percentile = 97, gradient_gamma = 0.8f;
+    float gradient_percentile = 97, gradient_gamma = 0.8f, gradient_tone = 0;
     float line_scale = 1.5f;
     float importance_gradient = 3, importance_tone = 1, importance_lines = 2, importance_percentile = 98.5f;
     float features_gradient = 0.8f, features_surround = 12, features_suppress = 0.6f;

@@ -43,7 +43,8 @@ WeightedLattice weights(Fields& fields, const Grid<std::uint8_t>& passable, cons
 }
 
 Grid<float> endpoint_density(Fields& fields, const EndpointParameters& p) {
-    Grid<float> density = p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
+    Grid<float> density =
+        p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
     transform(density, [&](float v) {
         const float toe = p.density_toe > 0 ? smoothstep(-0.5f * p.density_toe, p.density_toe, v) : 1;
         return std::pow(std::clamp(v, 0.0f, 1.0f), p.density_exponent) * toe;
@@ -55,12 +56,16 @@ std::vector<NodeId> discs(Fields& fields, const Grid<std::uint8_t>& passable, co
                           const Dendrite& drawn, std::uint64_t seed, std::uint32_t stage_number) {
     const float u = fields.u();
     const Grid<float> density = endpoint_density(fields, p);
-    const DiscRequest request{fields[p.priority],    density,
-                              p.at_least,            p.jitter,
-                              p.calm_spacing * u,    p.dense_spacing * u,
+    const DiscRequest request{fields[p.priority],
+                              density,
+                              p.at_least,
+                              p.jitter,
+                              p.calm_spacing * u,
+                              p.dense_spacing * u,
                               Noise(seed, Purpose::endpoints, stage_number)};
     Occupancy occupancy(fields.extent());
-    std::transform(passable.begin(), passable.end(), occupancy.begin(), [](std::uint8_t p0) { return std::uint8_t(!p0); });
+    std::transform(passable.begin(), passable.end(), occupancy.begin(),
+                   [](std::uint8_t p0) { return std::uint8_t(!p0); });
     if (p.keep_off > 0) {
         const auto width = std::uint32_t(fields.extent().x);
         for (const NodeId node : drawn.node) {
@@ -78,7 +83,8 @@ std::vector<NodeId> stipples(Fields& fields, const Grid<std::uint8_t>& passable,
     Grid<float> expense = endpoint_density(fields, p);
     const float least = std::min(1.0f, p.dense_spacing / p.calm_spacing);
     transform(expense, [&](float v) { return least + (1 - least) * v; });
-    return graph_distance_stipples({expense, std::max(0.01f, p.dense_spacing * fields.u()), drawn.node, passable}, work);
+    return graph_distance_stipples({expense, std::max(0.01f, p.dense_spacing * fields.u()), drawn.node, passable},
+                                   work);
 }
 
 std::vector<NodeId> given_endpoints(const Controls& controls, const StageParameters& stage, bool first,
@@ -87,8 +93,8 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
     const Extent e = graph.lattice.extent();
     for (const EndpointRow& row : controls.endpoints) {
         if (row.stage.empty() ? !first : row.stage != stage.name) continue;
-        const NodeId node = graph.lattice.nearest({float(row.x.px(picture_px.x) / picture_px.x * e.x),
-                                                   float(row.y.px(picture_px.y) / picture_px.y * e.y)});
+        const NodeId node = graph.lattice.nearest(
+            {float(row.x.px(picture_px.x) / picture_px.x * e.x), float(row.y.px(picture_px.y) / picture_px.y * e.y)});
         if (graph.passable(node)) out.push_back(node);
     }
     return out;
@@ -103,7 +109,8 @@ double mean_cost_per_step(const WeightedLattice& graph, const Dendrite& drawn) {
 
 std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& graph, const StageParameters& stage) {
     if (stage.sources == StageParameters::Sources::dendrite)
-        return growth.sources(stage.metric == Metric::sum ? stage.carry : 0, mean_cost_per_step(graph, growth.dendrite()));
+        return growth.sources(stage.metric == Metric::sum ? stage.carry : 0,
+                              mean_cost_per_step(graph, growth.dendrite()));
     std::vector<Source> out;
     const Dendrite& d = growth.dendrite();
     for (std::uint32_t v = 0; v < d.size(); ++v)
@@ -121,12 +128,22 @@ std::function<float(Vec2f)> spur_length(Fields& fields, const StrokeParameters& 
     };
 }
 
+/// What a unit of length costs on the nodes that a stage added, as a share of its dearest node.
+void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t first, const WeightedLattice& graph,
+                  const StageParameters& stage) {
+    for (std::size_t v = first; v < drawn.size(); ++v) {
+        const std::uint32_t n = index(drawn.node[v]);
+        node_cost[n] = float(graph.weight[n]) / float(stage.levels);
+    }
+}
+
 }  // namespace
 
 Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
            Extent picture_px, const StageObserver& observer, const Work& work) {
     Growth growth(Lattice(fields.extent(), style.lattice.neighbourhood));
     Grown out;
+    out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
         work.report(stage.name + ": weights", (0.2 + double(s)) / (double(style.stages.size()) + 1));
@@ -137,18 +154,21 @@ Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& styl
                 growth.add_root(node, owner++);
         }
         std::vector<NodeId> endpoints;
-        if (!controls.endpoints.empty()) endpoints = given_endpoints(controls, stage, s == 0, graph, picture_px);
+        if (!controls.endpoints.empty())
+            endpoints = given_endpoints(controls, stage, s == 0, graph, picture_px);
         else if (stage.endpoints.rule == EndpointParameters::Rule::stipples)
             endpoints = stipples(fields, passable, stage.endpoints, growth.dendrite(), work);
         else
             endpoints = discs(fields, passable, stage.endpoints, growth.dendrite(), controls.seed, std::uint32_t(s));
         work.report(stage.name + ": paths", (0.4 + double(s)) / (double(style.stages.size()) + 1));
         const std::vector<Source> sources = stage_sources(growth, graph, stage);
-        const Plan plan = bucket_planner().plan(
-            {graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+        const Plan plan =
+            bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
         if (observer) observer({stage, graph, plan, endpoints});
         out.endpoints.push_back(endpoints.size());
+        const std::size_t before = growth.dendrite().size();
         out.unreached += growth.graft(plan, endpoints, std::uint8_t(s));
+        record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));
     return out;

@@ -24,8 +24,8 @@ Frame frame(Extent lattice, Extent picture) {
     return {x, y, lattice.x >= lattice.y ? x : y};
 }
 
-std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite,
-                                    const Branching& b, const std::vector<float>& widths, const Frame& to) {
+std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite, const Branching& b,
+                                    const std::vector<float>& widths, const Frame& to) {
     constexpr float kHiddenInParent = 0.9f;
     std::vector<VariableStroke> out(lines.size());
     for (std::size_t s = 0; s < lines.size(); ++s) {
@@ -34,13 +34,27 @@ std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const 
         stroke.order = branch.order;
         stroke.stage = dendrite.stage[branch.nodes.back()];
         for (const Vec2f p : lines[s].points_lattice) stroke.points_px.push_back(to.px(p));
-        const float first = widths[branch.nodes[0]], second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
+        const float first = widths[branch.nodes[0]],
+                    second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
         const bool joins = branch.parent_branch != Branch::kNone;
         const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
         stroke.width_px.assign(lines[s].lead, at_joint * to.width_scale);
         stroke.width_px.push_back(at_joint * to.width_scale);
         for (std::size_t k = 1; k < branch.nodes.size(); ++k)
             stroke.width_px.push_back(widths[branch.nodes[k]] * to.width_scale);
+    }
+    return out;
+}
+
+/// Beside the strokes: the share of all tips that each point carries.
+std::vector<std::vector<float>> tip_shares(const std::vector<Centreline>& lines, const Branching& b) {
+    std::vector<std::vector<float>> out(lines.size());
+    float most = 1;
+    for (const std::uint32_t tips : b.tips) most = std::max(most, float(tips));
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const Branch& branch = b.branches[lines[s].branch];
+        out[s].assign(lines[s].lead, float(b.tips[branch.nodes[0]]) / most);
+        for (const std::uint32_t v : branch.nodes) out[s].push_back(float(b.tips[v]) / most);
     }
     return out;
 }
@@ -56,7 +70,8 @@ Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattic
     list.layers.push_back(std::move(layer));
     const Picture black_on_white = raster(list, {lattice}, work);
     Grid<float> out(lattice);
-    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(), [](Rgba8 p) { return 1 - float(p.r) / 255; });
+    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(),
+                   [](Rgba8 p) { return 1 - float(p.r) / 255; });
     return out;
 }
 
@@ -67,9 +82,19 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
     const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
     for (int pass = 0; pass < passes; ++pass) {
         work.check();
-        const Grid<float> ink = drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
+        const Grid<float> ink =
+            drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
         widths.correct(target, blurred(ink, kDrawnWindow_u * u));
     }
+}
+
+Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
+    Grid<float> out(fields.extent(), 0.0f);
+    for (const auto& [name, weight] : weights) {
+        const Grid<float>& field = fields[name];
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] += weight * field[n];
+    }
+    return out;
 }
 
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
@@ -89,25 +114,30 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     for (const StageParameters& stage : style.stages) out.stage_names.push_back(stage.name);
     const Branching b = branching(out.dendrite);
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
+    warp(out.dendrite, out.lattice, style.stroke, u, controls.seed);
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Grid<float> half_width;
+    Grid<float> width_sum, half_width;
+    if (style.width.field > 0) width_sum = weighted_sum(fields, style.width.fields);
     if (style.width.room_share > 0) {
         half_width = fields["room"];
         transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
     }
     Widths widths(out.dendrite, b, style.width,
-                  {fields["tone"], fields["lines"], fields["importance"], half_width.empty() ? nullptr : &half_width}, u);
+                  {fields["tone"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
+                   &grown.node_cost, half_width.empty() ? nullptr : &half_width},
+                  u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
     work.report("drawing", 0.85);
     const Frame to = frame(out.lattice, out.picture);
     const std::vector<VariableStroke> drawn = strokes(lines, out.dendrite, b, widths.widths(), to);
+    const std::vector<std::vector<float>> shares = tip_shares(lines, b);
     out.strokes = drawn.size();
     out.width_u = widths.widths();
     for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
-    out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale, drawn,
-                                     [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
-                                     controls.seed});
+    out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
+                                     drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
+                                     controls.seed, &picture, shares});
     return out;
 }
 
