@@ -35,6 +35,8 @@ void EndpointParameters::visit(ParameterVisitor& v) {
     v.number({"jitter", "", "discs: random share in the priority"}, jitter, 0, 4);
     v.number({"calm_spacing", "u", "distance between endpoints at density 0"}, calm_spacing, 0.5f, 500);
     v.number({"dense_spacing", "u", "distance between endpoints at density 1"}, dense_spacing, 0.5f, 500);
+    v.number({"close_loops", "u", "discs: join ways around holes that are longer than this; 0: leave them open"},
+             close_loops, 0, 2000);
     v.number({"keep_off", "", "discs: share of the spacing kept from what is drawn already"}, keep_off, 0, 2);
 }
 

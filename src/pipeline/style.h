@@ -43,6 +43,7 @@ struct EndpointParameters {
     std::string priority = "density";  ///< discs: field, highest first
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
+    float close_loops = 0;  ///< u: ways around a hole longer than this are joined; 0: never
     float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
 
     void visit(ParameterVisitor& visitor);
