@@ -7,7 +7,7 @@ _dstylize() {
     local draw='-s --style --set --detail --seed --root --mask --importance --importance-mode --endpoints
         --background --show --help-all --version'
     COMPREPLY=()
-    if [[ $before == -s || $before == --style || ($verb == styles && COMP_CWORD -eq 2) ]]; then
+    if [[ $before == -s || $before == --style || ($verb == styles && $COMP_CWORD == 2) ]]; then
         styles=$("${COMP_WORDS[0]}" styles 2>/dev/null | cut -d ' ' -f 1)
     fi
     case $before in

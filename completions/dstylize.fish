@@ -1,6 +1,6 @@
 # Completion of dstylize for fish.
-set -l draw 'not __fish_seen_subcommand_from styles replay'
-set -l runs 'not __fish_seen_subcommand_from styles'
+set --local draw 'not __fish_seen_subcommand_from styles replay'
+set --local runs 'not __fish_seen_subcommand_from styles'
 
 complete -c dstylize -n __fish_is_first_arg -a styles -d 'list the styles'
 complete -c dstylize -n __fish_is_first_arg -a replay -d 'make a drawing again'

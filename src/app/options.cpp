@@ -222,8 +222,10 @@ std::string Parser::help(bool all) {
 
 void set_output_options(RunRequest& request, const Arguments& a) {
     for (const std::string& output : a.outputs) request.outputs.emplace_back(output);
-    if (a.json && std::find(request.outputs.begin(), request.outputs.end(), "-") != request.outputs.end())
-        throw usage_error("--json", "the report and the output would share standard output", "write to a file");
+    const auto writers = std::count(request.outputs.begin(), request.outputs.end(), "-") + (a.recipe_file == "-") +
+                         (a.json || a.dry_run);
+    if (writers > 1)
+        throw usage_error("", "more than one thing would be written to standard output", "write all but one to files");
     request.format = a.format;
     if (!a.size.empty()) request.size = parsed_output_size(a.size);
     if (a.scale > 0) request.size = {OutputSize::Kind::scale, a.scale, OutputSize::kDefaultDpi, {}, 0, 0};

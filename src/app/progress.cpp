@@ -56,7 +56,8 @@ void Progress::keep_drawing(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         if (!steps_.empty()) {
             const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep), 100 * share_done_);
+            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep),
+                                           100 * share_done_);
             if (share_done_ > 0.05) line += fmt::format(" · {:.0f} s left", elapsed / share_done_ - elapsed);
             std::fputs(line.c_str(), stderr);
             std::fflush(stderr);

@@ -47,7 +47,7 @@ struct Glow {
         Rgba colour;
         float gain = 1;
     };
-    Rgba core;
+    Rgba core{1, 1, 1, 1};
     float core_gain = 1;
     std::vector<Halo> halos;
     float exposure = 1.35f;

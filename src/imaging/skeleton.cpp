@@ -61,7 +61,8 @@ class Thinning {
         }
         if (count < 2 || count > 6 || rises != 1) return false;
         const unsigned up = on(0), right = on(2), down = on(4), left = on(6);
-        return second ? !(up && right && left) && !(up && down && left) : !(up && right && down) && !(right && down && left);
+        return second ? !(up && right && left) && !(up && down && left)
+                      : !(up && right && down) && !(right && down && left);
     }
 
     /// One half-iteration: whether anything went. All decisions are made before anything goes.

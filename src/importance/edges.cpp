@@ -107,6 +107,17 @@ Grid<float> features(Fields& fields) {
     return out;
 }
 
+Grid<float> low_features(Fields& fields) {
+    constexpr float kTop = 0.35f, kLow = 0.8f;  // shares of the height
+    Grid<float> out = fields["features"];
+    const Extent e = out.extent();
+    for (int j = 0; j < e.y; ++j) {
+        const float share = smoothstep(kTop, kLow, (float(j) + 0.5f) / float(e.y));
+        for (int i = 0; i < e.x; ++i) out(i, j) *= share;
+    }
+    return out;
+}
+
 Grid<float> density(Fields& fields) {
     Grid<float> out = blurred(fields["tone"], 2 * fields.u());
     const Grid<float>&g = fields["gradient"], &line = fields["lines"];

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
 #include "imaging/filters.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
 
@@ -16,7 +16,8 @@ Grid<float> white_noise(Fields& fields) {
     Grid<float> out(e);
     for (int j = 0; j < e.y; ++j)
         for (int i = 0; i < e.x; ++i) {
-            const auto cx = std::uint64_t((float(i) + 0.5f) * per_node), cy = std::uint64_t((float(j) + 0.5f) * per_node);
+            const auto cx = std::uint64_t((float(i) + 0.5f) * per_node),
+                       cy = std::uint64_t((float(j) + 0.5f) * per_node);
             out(i, j) = noise.unit(cy << 32 | cx);
         }
     return out;
@@ -26,11 +27,11 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
     const Noise noise(fields.seed(), purpose);
     const Extent e = fields.extent();
     const float nodes_per_cell = cell_u * fields.u();
-    const Extent cells{int(std::ceil(float(e.x) / nodes_per_cell)) + 1, int(std::ceil(float(e.y) / nodes_per_cell)) + 1};
+    const Extent cells{int(std::ceil(float(e.x) / nodes_per_cell)) + 1,
+                       int(std::ceil(float(e.y) / nodes_per_cell)) + 1};
     Grid<float> coarse(cells);
     for (int j = 0; j < cells.y; ++j)
-        for (int i = 0; i < cells.x; ++i)
-            coarse(i, j) = noise.unit(std::uint64_t(j) << 32 | std::uint64_t(i)) - 0.5f;
+        for (int i = 0; i < cells.x; ++i) coarse(i, j) = noise.unit(std::uint64_t(j) << 32 | std::uint64_t(i)) - 0.5f;
     coarse = blurred(coarse, sigma_u / cell_u);
     // The blur of independent samples of variance 1/12 by a Gaussian has variance 1 / (12 * 4 pi sigma^2).
     const float deviation = std::sqrt(1 / (12 * 4 * 3.14159265f)) / (sigma_u / cell_u);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
 #include "imaging/skeleton.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
 namespace {

@@ -34,7 +34,8 @@ class Lichen final : public Metaphor {
         v.number({"swell_length", "u", "over which length they are"}, swell_length_, 0.5f, 60);
         v.number({"height", "", "how high lobes rise, as a share of their half width"}, height_, 0, 2);
         v.number({"roughness", "", "of their skin"}, roughness_, 0, 3);
-        v.number({"light_angle", "deg", "where the light comes from, clockwise from the right"}, light_angle_deg_, 0, 360);
+        v.number({"light_angle", "deg", "where the light comes from, clockwise from the right"}, light_angle_deg_, 0,
+                 360);
         v.number({"gap", "", "how solid the gaps between lobes are filled: foliose low, crusty high"}, gap_, 0, 1);
         v.number({"gap_reach", "u", "how wide a gap is filled"}, gap_reach_, 0.5f, 40);
         v.number({"shadow", "", "darkness of the cast shadow"}, shadow_, 0, 1);
@@ -100,7 +101,8 @@ class Lichen final : public Metaphor {
     Relief relief(const Subject& subject, const Species& species) const {
         const float u = subject.u_px, angle = light_angle_deg_ * 3.14159265f / 180;
         std::vector<float> widths;
-        for (const VariableStroke& stroke : subject.strokes) widths.push_back(stroke.width_px[stroke.width_px.size() / 2]);
+        for (const VariableStroke& stroke : subject.strokes)
+            widths.push_back(stroke.width_px[stroke.width_px.size() / 2]);
         float typical = 5 * u;
         if (!widths.empty()) {
             const auto middle = widths.begin() + std::ptrdiff_t(widths.size() / 2);
@@ -138,9 +140,11 @@ class Lichen final : public Metaphor {
         for (std::size_t s = 0; s < subject.strokes.size(); ++s) {
             const VariableStroke& stroke = subject.strokes[s];
             if (stroke.points_px.size() < 4 || 100 * noise.unit(4 * s) >= cups_) continue;
-            const Vec2f at = stroke.points_px[std::size_t(noise.unit(4 * s + 1) * 0.6f * float(stroke.points_px.size()))];
+            const Vec2f at =
+                stroke.points_px[std::size_t(noise.unit(4 * s + 1) * 0.6f * float(stroke.points_px.size()))];
             const float radius = (kLeast_u + kMore_u * noise.unit(4 * s + 2)) * subject.u_px;
-            if (std::any_of(placed.begin(), placed.end(), [&](Vec2f p) { return distance(p, at) < kApart * radius; })) continue;
+            if (std::any_of(placed.begin(), placed.end(), [&](Vec2f p) { return distance(p, at) < kApart * radius; }))
+                continue;
             placed.push_back(at);
             const auto disc = [&](float r, Rgba colour) {
                 Fill fill{{}, colour};

@@ -22,23 +22,18 @@ class Lightning final : public Metaphor {
     }
     DisplayList draw(const Subject& subject) const override {
         DisplayList list{subject.width_px, subject.height_px, {ground_, 0, subject.seed}, {}};
-        // Brighter than meant, and dimmed by as much: dark 8-bit values would show steps when lit up.
-        constexpr float kHeadroom = 2;
-        GlowParameters glow = glow_;
-        glow.ambient /= kHeadroom;
-        glow.cast /= kHeadroom;
-        list.paper.picture = std::make_shared<Picture>(hinted(*subject.picture, kHeadroom));
-        list.layers.push_back(glow_layer(subject, glow));
+        list.paper.picture = std::make_shared<Picture>(hinted(*subject.picture));
+        list.layers.push_back(glow_layer(subject, glow_));
         return list;
     }
 
   private:
-    Picture hinted(const Picture& picture, float headroom) const {
+    Picture hinted(const Picture& picture) const {
         const auto light = [&](float encoded) { return -std::log(std::max(1e-3f, 1 - encoded)) / glow_.exposure; };
-        const float floor = headroom / std::max(0.05f, glow_.ambient);  // the darkest ground is meant as it is
+        const float floor = 1 / std::max(0.05f, glow_.ambient);  // the darkest ground is meant as it is
         std::array<Rgba8, 256> graded;
         for (int v = 0; v < 256; ++v) {
-            const float hint = headroom * hint_gain_ * std::pow(float(v) / 255, hint_gamma_);
+            const float hint = hint_gain_ * std::pow(float(v) / 255, hint_gamma_);
             graded[std::size_t(v)] =
                 exposed_ground({floor * light(ground_.r) + hint * hint_.r, floor * light(ground_.g) + hint * hint_.g,
                                 floor * light(ground_.b) + hint * hint_.b},

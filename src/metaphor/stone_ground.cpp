@@ -14,13 +14,15 @@ class ValueNoise {
     ValueNoise(std::uint64_t seed, std::uint32_t stream, Extent size_px, float cell_px)
         : cell_px_(cell_px),
           turned_(0.6f * float(size_px.y + 2)),
-          values_({int(float(size_px.x + size_px.y + 4) / cell_px) + 2, int(float(size_px.x + size_px.y + 4) / cell_px) + 2}) {
+          values_({int(float(size_px.x + size_px.y + 4) / cell_px) + 2,
+                   int(float(size_px.x + size_px.y + 4) / cell_px) + 2}) {
         const Noise noise(seed, Purpose::paper, stream);
         for (std::size_t n = 0; n < values_.size(); ++n) values_[n] = noise.unit(n);
     }
     float operator()(int x, int y) const {
         // Two grids, one turned: the mean shows no axes.
-        return 0.5f * at(float(x), float(y)) + 0.5f * at(turned_ + 0.8f * float(x) - 0.6f * float(y), 0.6f * float(x) + 0.8f * float(y));
+        return 0.5f * at(float(x), float(y)) +
+               0.5f * at(turned_ + 0.8f * float(x) - 0.6f * float(y), 0.6f * float(x) + 0.8f * float(y));
     }
 
   private:
@@ -44,9 +46,11 @@ std::shared_ptr<const Picture> basalt(const Subject& subject) {
     const float scale = std::min(1.0f, kMostSide / std::max(subject.width_px, subject.height_px));
     const Extent size{std::max(1, int(subject.width_px * scale)), std::max(1, int(subject.height_px * scale))};
     const float cell = float(size.long_side()) / kCellsPerSide;
-    const auto noise = [&](std::uint32_t stream, float cells) { return ValueNoise(subject.seed, 16 + stream, size, cells * cell); };
-    const ValueNoise clouds = noise(0, 210), stains = noise(1, 90), bumps = noise(2, 14), grains = noise(3, 5), fine = noise(4, 2),
-                     pits = noise(5, 9), flecks = noise(6, 3.2f);
+    const auto noise = [&](std::uint32_t stream, float cells) {
+        return ValueNoise(subject.seed, 16 + stream, size, cells * cell);
+    };
+    const ValueNoise clouds = noise(0, 210), stains = noise(1, 90), bumps = noise(2, 14), grains = noise(3, 5),
+                     fine = noise(4, 2), pits = noise(5, 9), flecks = noise(6, 3.2f);
     const auto height = [&](int x, int y) {
         return 1.3f * bumps(x, y) + 0.9f * grains(x, y) - 2.2f * smoothstep(0.66f, 0.8f, pits(x, y));
     };

@@ -1,5 +1,7 @@
 // Great bolts over the picture itself, which turns to night and is lit up where they strike (000 s. 4.3,
 // fig. 4.12).
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "metaphor/glow_layer.h"
@@ -10,13 +12,18 @@ namespace {
 class Storm final : public Metaphor {
   public:
     Storm() {
-        glow_.ambient = 0.25f;
-        glow_.cast = 3.5f;
+        glow_.core = {0.6f, 0.78f, 1, 1};
+        glow_.core_gain = 2.6f;
+        glow_.ambient = 0.38f;
+        glow_.cast = 9;
+        glow_.cast_radius = 65;
     }
     void visit(ParameterVisitor& v) override {
         v.colour({"night", "", "tint of the night"}, night_);
         v.number({"night_gain", "", "light of the tinted picture"}, gain_, 0, 4);
         v.number({"day_colour", "", "share of the picture's own colours that stays"}, day_, 0, 1);
+        v.number({"night_white", "", "luma that the picture's brightest parts are brought to; 0: left as they are"},
+                 white_, 0, 1);
         v.number({"night_gamma", "", "above 1 deepens the shadows"}, gamma_, 0.5f, 4);
         glow_.visit(v);
     }
@@ -30,10 +37,11 @@ class Storm final : public Metaphor {
   private:
     Picture night(const Picture& picture) const {
         constexpr int kLevels = 512;
+        const float level = levelling(picture);
         std::vector<float> light(kLevels + 1);
         for (int k = 0; k <= kLevels; ++k) light[std::size_t(k)] = std::pow(2 * float(k) / kLevels, gamma_);
         const auto graded = [&](float own, float grey, float tint) {
-            const float q = day_ * own + (1 - day_) * grey * gain_ * tint;
+            const float q = level * (day_ * own + (1 - day_) * grey * gain_ * tint);
             return light[std::size_t(std::min(float(kLevels), 0.5f * kLevels * q))];
         };
         Picture out(picture.extent());
@@ -48,8 +56,22 @@ class Storm final : public Metaphor {
         return out;
     }
 
+    /// What brings the luma that 2 % of the picture exceed to `night_white`; within bounds, for night
+    /// photographs have nothing but grain to brighten.
+    float levelling(const Picture& picture) const {
+        constexpr double kBright = 0.98;
+        constexpr float kLeast = 0.8f, kMost = 2;
+        if (white_ <= 0) return 1;
+        std::array<std::size_t, 256> count{};
+        for (const Rgba8 p : picture) ++count[std::size_t((299 * p.r + 587 * p.g + 114 * p.b + 500) / 1000)];
+        int level = 0;
+        for (std::size_t seen = count[0]; level < 255 && double(seen) < kBright * double(picture.size());)
+            seen += count[std::size_t(++level)];
+        return std::clamp(white_ * 255 / float(std::max(1, level)), kLeast, kMost);
+    }
+
     Rgba night_{0xa3 / 255.0f, 0xc2 / 255.0f, 1, 1};
-    float gain_ = 1.25f, day_ = 0.35f, gamma_ = 2;
+    float gain_ = 1.25f, day_ = 0.35f, white_ = 0.95f, gamma_ = 2;
     GlowParameters glow_;
 };
 

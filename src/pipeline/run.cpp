@@ -222,8 +222,14 @@ class Run {
     void lay_ground(Paper& paper) {
         switch (request_.background.kind) {
             case Background::Kind::style: return;
-            case Background::Kind::none: paper.colour.a = 0; break;
-            case Background::Kind::colour: paper.colour = request_.background.colour; break;
+            case Background::Kind::none:
+                paper.colour.a = 0;
+                paper.picture = nullptr;
+                break;
+            case Background::Kind::colour:
+                paper.colour = request_.background.colour;
+                paper.picture = nullptr;
+                break;
             case Background::Kind::input:
             case Background::Kind::file: {
                 Picture ground = middle_part(ground_, frame_.size_px);

@@ -7,7 +7,7 @@
 
 #include "imaging/filters.h"
 #include "pipeline/growth.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 #include "render/raster.h"
 
 namespace dstylize {
@@ -99,7 +99,7 @@ Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
 
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     work.report("fields", 0);
-    Prepared base = prepared(picture, style, controls);
+    PreparedPicture base = prepared_picture(picture, style, controls);
     Fields& fields = base.fields;
     const float u = fields.u();
     Grown grown = grow(fields, base.passable, style, controls, picture.extent(), {}, work);

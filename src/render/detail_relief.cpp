@@ -70,10 +70,12 @@ class Rods {
     }
     void bin(const Rod& rod) {
         const float reach = std::max(rod.radius_a, rod.radius_b) + 1;
-        const float top = (std::min(rod.a.y, rod.b.y) - reach) / kBand, bottom = (std::max(rod.a.y, rod.b.y) + reach) / kBand;
+        const float top = (std::min(rod.a.y, rod.b.y) - reach) / kBand,
+                    bottom = (std::max(rod.a.y, rod.b.y) + reach) / kBand;
         const auto most = float(bands.size() - 1);
         if (bottom < 0 || top > most + 1) return;
-        for (auto band = std::size_t(std::clamp(top, 0.0f, most)); band <= std::size_t(std::clamp(bottom, 0.0f, most)); ++band)
+        for (auto band = std::size_t(std::clamp(top, 0.0f, most)); band <= std::size_t(std::clamp(bottom, 0.0f, most));
+             ++band)
             bands[band].push_back(rod);
     }
 };
@@ -106,32 +108,37 @@ void paint(const Rod& rod, int first_row, int last_row, Body& out) {
 
 /// Smooth noise in [0, 1] with cells of that size, keyed by the drawing: every output size shows the same.
 Grid<float> cloud(const DisplayList& list, float cell_px, std::uint64_t seed, std::uint32_t stream, Extent size) {
-    const Extent cells{std::max(2, int(std::lround(list.width_px / cell_px))), std::max(2, int(std::lround(list.height_px / cell_px)))};
+    const Extent cells{std::max(2, int(std::lround(list.width_px / cell_px))),
+                       std::max(2, int(std::lround(list.height_px / cell_px)))};
     const Noise noise(seed, Purpose::relief, stream);
     Grid<float> coarse(cells);
     for (std::size_t n = 0; n < coarse.size(); ++n) coarse[n] = noise.unit(n);
     return resized(coarse, size);
 }
 
-Rgba mix(Rgba a, Rgba b, float t) { return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t, a.a + (b.a - a.a) * t}; }
+Rgba mix(Rgba a, Rgba b, float t) {
+    return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t, a.a + (b.a - a.a) * t};
+}
 float unit(float v) { return std::clamp(v, 0.0f, 1.0f); }
 
 /// How the ground's brightness at every pixel compares with that of its surroundings.
 Grid<float> ground_grain(const Picture& below, float sigma_px) {
     Grid<float> luma = blurred(luma_plane(below), 0.06f * sigma_px);
     const Grid<float> around = blurred(luma, sigma_px);
-    for (std::size_t n = 0; n < luma.size(); ++n) luma[n] = std::clamp((luma[n] + 0.03f) / (around[n] + 0.03f), 0.35f, 1.6f);
+    for (std::size_t n = 0; n < luma.size(); ++n)
+        luma[n] = std::clamp((luma[n] + 0.03f) / (around[n] + 0.03f), 0.35f, 1.6f);
     return luma;
 }
 
 /// The surface that is lit: flattened rods, a rough skin, the ground's bumps showing through.
-Grid<float> surface(const Body& body, const Relief& relief, const Grid<float>& rough, const Grid<float>& grain, float scale) {
+Grid<float> surface(const Body& body, const Relief& relief, const Grid<float>& rough, const Grid<float>& grain,
+                    float scale) {
     const float flat = std::max(1e-3f, relief.radius_px * scale);
     Grid<float> out(body.height.extent());
     for (std::size_t n = 0; n < out.size(); ++n) {
         const float profile = std::pow(body.height[n] / flat, 0.8f);
-        out[n] = flat * (relief.height * profile +
-                         body.coverage[n] * (relief.roughness * (rough[n] - 0.5f) + relief.drape * 0.5f * (grain[n] - 1)));
+        out[n] = flat * (relief.height * profile + body.coverage[n] * (relief.roughness * (rough[n] - 0.5f) +
+                                                                       relief.drape * 0.5f * (grain[n] - 1)));
     }
     return blurred(out, std::max(0.4f, 0.16f * flat));
 }
@@ -144,7 +151,8 @@ class Lighting {
           scale_(std::sqrt(float(below.extent().x) / list.width_px * float(below.extent().y) / list.height_px)),
           rough_(cloud(list, 0.55f * relief.radius_px, relief.seed, 0, below.extent())),
           patches_(cloud(list, 7 * relief.radius_px, relief.seed, 1, below.extent())),
-          grain_(relief.drape > 0 ? ground_grain(below, relief.drape_sigma_px * scale_) : Grid<float>(below.extent(), 1)),
+          grain_(relief.drape > 0 ? ground_grain(below, relief.drape_sigma_px * scale_)
+                                  : Grid<float>(below.extent(), 1)),
           surface_(surface(body, relief, rough_, grain_, scale_)),
           gaps_(blurred(body.coverage, relief.gap_sigma_px * scale_)),
           contact_(blurred(body.coverage, relief.contact_sigma_px * scale_)),
@@ -161,7 +169,8 @@ class Lighting {
                  float(below.b) / 255 * alpha * (1 - shade), alpha + (1 - alpha) * shade};
         const float lit = brightness(x, y), patch = patches_(x, y), fine = rough_(x, y);
         const float gap = relief_.gap * smoothstep(0.42f, 0.66f, gaps_(x, y) + 0.25f * (patch - 0.5f));
-        if (gap > 0) lay(out, scaled(relief_.gap_colour, (0.62f + 0.5f * fine) * (1 - 0.4f * shade) * drape(x, y)), gap);
+        if (gap > 0)
+            lay(out, scaled(relief_.gap_colour, (0.62f + 0.5f * fine) * (1 - 0.4f * shade) * drape(x, y)), gap);
         if (body_.coverage(x, y) <= 0) return straight(out);
         const float tip = body_.tip(x, y);
         Rgba skin = mix(body_.palette[body_.colour(x, y)], relief_.tip, unit(1.15f * tip + 0.5f * (patch - 0.5f)));

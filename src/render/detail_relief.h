@@ -8,9 +8,9 @@ namespace dstylize {
 
 /// A layer of strokes as a body: per output pixel what the highest of them shows there.
 struct Body {
-    Grid<float> coverage;  ///< in [0, 1]
-    Grid<float> height;    ///< above the ground, in pixels, if strokes were round rods half sunk into it
-    Grid<float> tip;       ///< 1 at the end of a stroke, falling towards its start
+    Grid<float> coverage;        ///< in [0, 1]
+    Grid<float> height;          ///< above the ground, in pixels, if strokes were round rods half sunk into it
+    Grid<float> tip;             ///< 1 at the end of a stroke, falling towards its start
     Grid<std::uint32_t> colour;  ///< index into `palette`
     std::vector<Rgba> palette;
 };

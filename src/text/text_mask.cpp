@@ -90,7 +90,8 @@ Handle<PangoLayout> layout(const Lettering& lettering, double em_px) {
     pango_layout_set_line_spacing(out.get(), lettering.line_spacing);
     if (lettering.letter_spacing != 0) {
         PangoAttrList* attributes = pango_attr_list_new();
-        pango_attr_list_insert(attributes, pango_attr_letter_spacing_new(int(lettering.letter_spacing * em_px * PANGO_SCALE)));
+        pango_attr_list_insert(attributes,
+                               pango_attr_letter_spacing_new(int(lettering.letter_spacing * em_px * PANGO_SCALE)));
         pango_layout_set_attributes(out.get(), attributes);
         pango_attr_list_unref(attributes);
     }

@@ -1,4 +1,4 @@
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,8 @@
 namespace dstylize {
 namespace {
 
-Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls, Fields& fields) {
+Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
+                                  Fields& fields) {
     constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
     const Extent lattice = fields.extent();
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
@@ -57,15 +58,17 @@ LatticeScale lattice_scale(Extent picture, const LatticeParameters& parameters, 
     return {lattice, u_px * float(lattice.long_side()) / side};
 }
 
-Prepared prepared(const Picture& picture, const Style& style, const Controls& controls) {
-    const LatticeScale scale = lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls) {
+    const LatticeScale scale =
+        lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
     UserMaps maps;
     if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), scale.extent);
     maps.importance_replaces = controls.importance_replaces;
     if (controls.mask) maps.mask = resized(luma_plane(*controls.mask), scale.extent);
     Grid<float> luma = luma_plane(picture);
     paint_over_frame(luma);
-    Prepared out{Fields(resized(luma, scale.extent), style.fields, std::move(maps), controls.seed, scale.nodes_per_u), {}};
+    PreparedPicture out{
+        Fields(resized(luma, scale.extent), style.fields, std::move(maps), controls.seed, scale.nodes_per_u), {}};
     out.passable = passable_nodes(picture, style, controls, out.fields);
     return out;
 }
