@@ -21,6 +21,7 @@ struct Grown {
     Dendrite dendrite;
     std::vector<std::size_t> endpoints;  ///< placed, per stage
     std::size_t unreached = 0;           ///< endpoints without a path
+    Grid<float> node_cost;               ///< of a unit of length at each node of the dendrite, 0 elsewhere
 };
 
 /// Runs the stages of a style: weights, endpoints, plan, graft. `passable`: 0 where nothing may grow.

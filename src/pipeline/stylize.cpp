@@ -46,6 +46,19 @@ std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const 
     return out;
 }
 
+/// Beside the strokes: the share of all tips that each point carries.
+std::vector<std::vector<float>> tip_shares(const std::vector<Centreline>& lines, const Branching& b) {
+    std::vector<std::vector<float>> out(lines.size());
+    float most = 1;
+    for (const std::uint32_t tips : b.tips) most = std::max(most, float(tips));
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const Branch& branch = b.branches[lines[s].branch];
+        out[s].assign(lines[s].lead, float(b.tips[branch.nodes[0]]) / most);
+        for (const std::uint32_t v : branch.nodes) out[s].push_back(float(b.tips[v]) / most);
+    }
+    return out;
+}
+
 /// Share of every lattice cell that the strokes ink.
 Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
     DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
@@ -75,6 +88,15 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
     }
 }
 
+Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
+    Grid<float> out(fields.extent(), 0.0f);
+    for (const auto& [name, weight] : weights) {
+        const Grid<float>& field = fields[name];
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] += weight * field[n];
+    }
+    return out;
+}
+
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     work.report("fields", 0);
     PreparedPicture base = prepared_picture(picture, style, controls);
@@ -92,19 +114,30 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     for (const StageParameters& stage : style.stages) out.stage_names.push_back(stage.name);
     const Branching b = branching(out.dendrite);
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
+    warp(out.dendrite, out.lattice, style.stroke, u, controls.seed);
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Widths widths(out.dendrite, b, style.width, {fields["tone"], fields["lines"], fields["importance"]}, u);
+    Grid<float> width_sum, half_width;
+    if (style.width.field > 0) width_sum = weighted_sum(fields, style.width.fields);
+    if (style.width.room_share > 0) {
+        half_width = fields["room"];
+        transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
+    }
+    Widths widths(out.dendrite, b, style.width,
+                  {fields["tone"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
+                   &grown.node_cost, half_width.empty() ? nullptr : &half_width},
+                  u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
     work.report("drawing", 0.85);
     const Frame to = frame(out.lattice, out.picture);
     const std::vector<VariableStroke> drawn = strokes(lines, out.dendrite, b, widths.widths(), to);
+    const std::vector<std::vector<float>> shares = tip_shares(lines, b);
     out.strokes = drawn.size();
     out.width_u = widths.widths();
-    for (float& w : out.width_u) w /= u;
+    for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
     out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
                                      drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
-                                     controls.seed});
+                                     controls.seed, &picture, shares});
     return out;
 }
 

@@ -100,7 +100,8 @@ TEST_P(Goldens, PictureLooksLikeTheStoredOne) {
 
 INSTANTIATE_TEST_SUITE_P(Samples, Goldens,
                          ::testing::Values(Golden{"vine", "portrait"}, Golden{"vine", "still-life"},
-                                           Golden{"ink", "cat"}),
+                                           Golden{"ink", "cat"}, Golden{"lightning", "portrait"},
+                                           Golden{"storm", "sky"}),
                          [](const auto& row) {
                              std::string name = std::string(row.param.style) + "_" + row.param.sample;
                              std::replace(name.begin(), name.end(), '-', '_');
