@@ -25,7 +25,8 @@ void replay(const Arguments& arguments);
 void list_styles(const Arguments& arguments);
 
 /// Runs one request, with progress and reports as the arguments say. Refuses folders as input. Throws Error.
-void run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec, Interrupt& interrupt);
+RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
+                         Interrupt& interrupt);
 CodecOptions codec_options(const Arguments& arguments);
 void refuse_folder(const std::filesystem::path& input);
 
