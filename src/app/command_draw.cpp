@@ -11,7 +11,6 @@
 #include "pipeline/replay.h"
 
 namespace dstylize::app {
-namespace {
 
 CodecOptions codec_options(const Arguments& arguments) {
     CodecOptions options;
@@ -46,8 +45,6 @@ RunReport run_and_report(const RunRequest& request, const Arguments& arguments, 
     return report;
 }
 
-}  // namespace
-
 void draw(const Arguments& arguments) {
     const RunRequest request = draw_request(arguments);
     refuse_folder(request.input);
@@ -65,8 +62,13 @@ void replay(const Arguments& arguments) {
     refuse_folder(input);
     Interrupt interrupt;
     PictureCodec codec(codec_options(arguments));
-    auto [request, input_xxh128] = replay_of(old, input, codec, arguments.max_memory);
-    if (arguments.names.size() > 2) request.outputs.emplace_back(arguments.names[2]);
+    Replay made = replay_of(old, input, codec, arguments.max_memory);
+    RunRequest& request = made.request;
+    // What was written on paper can be made again on paper, with no picture between OLD and OUT.
+    const bool on_paper = made.on_paper && arguments.names.size() == 2 && arguments.outputs.empty();
+    if (on_paper) request.input.clear();
+    const std::size_t named = on_paper ? 1 : 2;
+    if (arguments.names.size() > named) request.outputs.emplace_back(arguments.names[named]);
     set_output_options(request, arguments);
     const RunReport report = run_and_report(request, arguments, codec, interrupt);
     if (!arguments.quiet && report.input_xxh128 != input_xxh128)

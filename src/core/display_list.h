@@ -55,12 +55,31 @@ struct Glow {
     float cast = 0, cast_sigma = 0.03f;
 };
 
+/// What a layer's strokes are as a body on the ground: rods, lit from one side, that cast a shadow, with a skin
+/// between those that lie close. Raster only: vector formats paint the strokes flat. Lengths in the list's
+/// pixels.
+struct Relief {
+    Rgba tip;                 ///< strokes turn from their colour to this one towards their ends
+    float tip_length_px = 8;  ///< over about this length
+    float radius_px = 3;      ///< of a typical stroke: the scale of the relief and of its roughness
+    float height = 0.7f, roughness = 0.5f;
+    Vec2f light{-0.55f, -0.65f};  ///< towards the light, y down
+    float light_height = 0.75f, ambient = 0.34f;
+    Rgba gap_colour;  ///< of what fills the gaps between strokes
+    float gap = 0.8f, gap_sigma_px = 2.5f;
+    float shadow = 0.55f, shadow_length_px = 3, shadow_sigma_px = 1.5f;
+    float contact = 0.4f, contact_sigma_px = 10;
+    float drape = 0, drape_sigma_px = 16;  ///< how much the body follows the brightness of the ground's grain
+    std::uint64_t seed = 0;
+};
+
 /// A named group: an SVG group, later a plotter's pen. Layers are composited over one another in order.
 struct Layer {
     std::string name;
     Blend blend = Blend::over;
     std::vector<Item> items;
     std::optional<Glow> glow = std::nullopt;  ///< set: the items are not paint but light; their colours say nothing
+    std::optional<Relief> relief = std::nullopt;  ///< set: the strokes are a body
 };
 
 /// The ground the drawing stands on.

@@ -34,8 +34,13 @@ std::size_t row_of(std::string_view name) {
 
 }  // namespace
 
-Fields::Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed)
-    : luma_(std::move(luma)), parameters_(parameters), maps_(std::move(maps)), seed_(seed) {}
+Fields::Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed,
+               std::optional<float> nodes_per_u)
+    : luma_(std::move(luma)),
+      parameters_(parameters),
+      maps_(std::move(maps)),
+      seed_(seed),
+      u_(nodes_per_u.value_or(float(luma_.extent().long_side()) / 1024)) {}
 
 std::span<const std::string_view> Fields::names() { return kNames; }
 std::string_view Fields::meaning(std::string_view name) { return kRows[row_of(name)].meaning; }
@@ -49,6 +54,11 @@ const Grid<float>& Fields::operator[](std::string_view name) {
 const FlowField& Fields::flow() {
     if (!flow_) flow_ = field::flow(*this);
     return *flow_;
+}
+
+const Grid<std::uint8_t>& Fields::shape_interior() {
+    if (!shape_interior_) shape_interior_ = field::shape_interior(*this);
+    return *shape_interior_;
 }
 
 void FieldParameters::visit(ParameterVisitor& v) {
@@ -87,6 +97,11 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"flow_coarse_share", "", "weight of the coarse tensor: carries form into flat areas"}, flow_coarse_share,
              0, 4);
     v.number({"flow_swirl", "", "curls in areas without direction of their own"}, flow_swirl, 0, 4);
+    v.number({"shape_overflow", "u", "how far growth in the mask may leave it"}, shape_overflow, 0, 60);
+    v.number({"shape_ragged", "u", "how far the outline wanders inwards from there"}, shape_ragged, 0, 60);
+    v.number({"shape_ragged_scale", "u", "correlation length of that wandering"}, shape_ragged_scale, 1, 200);
+    v.number({"axis_width", "u", "how far from the shape's medial axis the field `axis` reaches"}, axis_width, 0.5f, 200);
+    v.number({"rim_width", "u", "how deep from the outline the field `rim` is above one half"}, rim_width, 0.5f, 60);
     v.number({"calm_scale", "u", "how far from contours calm areas stay"}, calm_scale, 5, 200);
     v.number({"calm_detail", "", "most detail that counts as calm"}, calm_detail, 0, 1);
     v.number({"calm_tone", "", "darkest tone that counts as calm"}, calm_tone, 0, 1);

@@ -26,6 +26,8 @@ struct FieldParameters {
     float border_width = 24;
     float smooth_noise_scale = 3;
     float flow_fine = 6, flow_coarse = 28, flow_coarse_share = 0.5f, flow_swirl = 0.25f;
+    float shape_overflow = 0, shape_ragged = 0, shape_ragged_scale = 12;
+    float axis_width = 18, rim_width = 3;
     float calm_scale = 45, calm_detail = 0.13f, calm_tone = 0.45f;
 
     void visit(ParameterVisitor& visitor);
@@ -35,7 +37,11 @@ struct FieldParameters {
 struct UserMaps {
     std::optional<Grid<float>> importance;
     bool importance_replaces = false;  ///< else the map is multiplied in
+    std::optional<Grid<float>> mask;
 };
+
+/// The half width at which the field `room` is 1.
+inline constexpr float kRoom_u = 64;
 
 /// Local orientation of the picture: a unit direction along its structures times the coherence in
 /// [0, 1] (0: no preferred direction). Sign means nothing.
@@ -45,12 +51,14 @@ using FlowField = Grid<Vec2f>;
 /// instance belongs to one thread.
 class Fields {
   public:
-    /// `luma`: the picture's luma in [0, 1] at the lattice's extent; u is extent.long_side() / 1024 nodes.
-    Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed);
+    /// `luma`: the picture's luma in [0, 1] at the lattice's extent. `nodes_per_u`: without it
+    /// extent.long_side() / 1024.
+    Fields(Grid<float> luma, FieldParameters parameters, UserMaps maps, std::uint64_t seed,
+           std::optional<float> nodes_per_u = {});
 
     Extent extent() const { return luma_.extent(); }
     /// Nodes per u.
-    float u() const { return float(extent().long_side()) / 1024; }
+    float u() const { return u_; }
     const FieldParameters& parameters() const { return parameters_; }
     const UserMaps& maps() const { return maps_; }
     std::uint64_t seed() const { return seed_; }
@@ -58,6 +66,9 @@ class Fields {
     /// The field called `name`. Throws Error(bad_usage) naming the nearest for an unknown one.
     const Grid<float>& operator[](std::string_view name);
     const FlowField& flow();
+    /// Nodes where growth in the shape may go: the mask, grown by the overflow and made ragged; parts that
+    /// are separate in the mask stay so. Without a mask: of the picture's dark parts.
+    const Grid<std::uint8_t>& shape_interior();
 
     static std::span<const std::string_view> names();
     static std::string_view meaning(std::string_view name);
@@ -74,8 +85,10 @@ class Fields {
     FieldParameters parameters_;
     UserMaps maps_;
     std::uint64_t seed_;
+    float u_;
     std::array<std::optional<Grid<float>>, kCount> cache_;
     std::optional<FlowField> flow_;
+    std::optional<Grid<std::uint8_t>> shape_interior_;
 };
 
 }  // namespace dstylize

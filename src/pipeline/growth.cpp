@@ -8,6 +8,7 @@
 #include "graph/bucket_planner.h"
 #include "graph/graph_distance.h"
 #include "graph/height_planes.h"
+#include "graph/meeting_points.h"
 #include "imaging/filters.h"
 #include "pipeline/roots.h"
 #include "stipple/poisson_discs.h"
@@ -100,6 +101,17 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
     return out;
 }
 
+/// The endpoints that close the rings of the priority field's ridges.
+std::vector<NodeId> loop_closings(Fields& fields, const WeightedLattice& graph, const Plan& plan,
+                                  const EndpointParameters& p) {
+    constexpr float kApart = 0.16f;  // of the shortest way around
+    const Grid<float>& ridge = fields[p.priority];
+    Grid<std::uint8_t> candidate(ridge.extent());
+    for (std::size_t n = 0; n < ridge.size(); ++n) candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
+    const float around = p.close_loops * fields.u();
+    return meeting_points(graph.lattice, plan, candidate, std::max(1, int(around)), kApart * around);
+}
+
 double mean_cost_per_step(const WeightedLattice& graph, const Dendrite& drawn) {
     double sum = 0;
     for (const NodeId node : drawn.node) sum += graph.weight[index(node)];
@@ -164,6 +176,10 @@ Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& styl
         const std::vector<Source> sources = stage_sources(growth, graph, stage);
         const Plan plan =
             bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+        if (stage.endpoints.close_loops > 0 && controls.endpoints.empty()) {
+            const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
+            endpoints.insert(endpoints.end(), closings.begin(), closings.end());
+        }
         if (observer) observer({stage, graph, plan, endpoints});
         out.endpoints.push_back(endpoints.size());
         const std::size_t before = growth.dendrite().size();

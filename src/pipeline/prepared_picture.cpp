@@ -1,8 +1,10 @@
 #include "pipeline/prepared_picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "imaging/filters.h"
+#include "imaging/skeleton.h"
 #include "importance/frame.h"
 #include "pipeline/stylize.h"
 
@@ -10,19 +12,29 @@ namespace dstylize {
 namespace {
 
 Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
-                                  Extent lattice) {
+                                  Fields& fields) {
     constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
+    const Extent lattice = fields.extent();
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
-    Grid<float> mask;
-    if (controls.mask) mask = resized(luma_plane(*controls.mask), lattice);
+    const Grid<std::uint8_t>* mask = controls.mask ? &fields.shape_interior() : nullptr;
     const int short_side = std::min(lattice.x, lattice.y);
-    const int margin =
-        int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
+    const int margin = int(std::min(style.lattice.margin * fields.u(), kMostMargin * float(short_side)));
     Grid<std::uint8_t> out(lattice);
     for (int j = margin; j < lattice.y - margin; ++j)
-        for (int i = margin; i < lattice.x - margin; ++i)
-            out(i, j) = alpha(i, j) >= kHalf && (mask.empty() || mask(i, j) >= kHalf);
+        for (int i = margin; i < lattice.x - margin; ++i) out(i, j) = alpha(i, j) >= kHalf && (!mask || (*mask)(i, j));
     return out;
+}
+
+/// The mask's strokes in pixels of a picture of that size, measured on a reduced copy.
+float stem_px(const Picture& mask, Extent picture) {
+    constexpr int kMostSide = 1200;
+    constexpr float kHalf = 0.5f;
+    const Grid<float> luma = luma_plane(mask);
+    const Extent e = luma.extent().long_side() > kMostSide ? lattice_extent(luma.extent(), kMostSide) : luma.extent();
+    const Grid<float> small = resized(luma, e);
+    Grid<std::uint8_t> shape(e);
+    std::transform(small.begin(), small.end(), shape.begin(), [](float v) { return std::uint8_t(v >= kHalf); });
+    return stem_width(shape) * float(picture.long_side()) / float(e.long_side());
 }
 
 }  // namespace
@@ -33,15 +45,32 @@ Extent lattice_extent(Extent picture, int detail) {
     return {nodes(picture.x), nodes(picture.y)};
 }
 
+LatticeScale lattice_scale(Extent picture, const LatticeParameters& parameters, const Picture* mask) {
+    constexpr float kMostNodes = 4096;
+    const auto side = float(picture.long_side());
+    const float stem = mask && parameters.stem > 0 ? stem_px(*mask, picture) : 0;
+    float nodes = float(parameters.detail), u_px = side / 1024;
+    if (stem > 0) {
+        u_px = stem / parameters.stem;
+        nodes = std::clamp(side / u_px * nodes / 1024, 16.0f, kMostNodes);
+    }
+    const Extent lattice = lattice_extent(picture, int(std::lround(nodes)));
+    return {lattice, u_px * float(lattice.long_side()) / side};
+}
+
 PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls) {
-    const Extent lattice = lattice_extent(picture.extent(), style.lattice.detail);
+    const LatticeScale scale =
+        lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
     UserMaps maps;
-    if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), lattice);
+    if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), scale.extent);
     maps.importance_replaces = controls.importance_replaces;
+    if (controls.mask) maps.mask = resized(luma_plane(*controls.mask), scale.extent);
     Grid<float> luma = luma_plane(picture);
     paint_over_frame(luma);
-    return {Fields(resized(luma, lattice), style.fields, std::move(maps), controls.seed),
-            passable_nodes(picture, style, controls, lattice)};
+    PreparedPicture out{
+        Fields(resized(luma, scale.extent), style.fields, std::move(maps), controls.seed, scale.nodes_per_u), {}};
+    out.passable = passable_nodes(picture, style, controls, out.fields);
+    return out;
 }
 
 }  // namespace dstylize

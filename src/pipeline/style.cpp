@@ -10,12 +10,17 @@ void LatticeParameters::visit(ParameterVisitor& v) {
     choice(v, {"neighbours", "", "steps a path can take from a node; 16 takes staircases out of long lines"},
            neighbourhood, kNeighbourhoods);
     v.number({"margin", "u", "nothing grows this near to the frame"}, margin, 0, 100);
+    v.number({"stem", "u", "with a mask, u is such that its strokes are this wide; 0: 1/1024 of the long side"}, stem, 0,
+             512);
 }
 
 void RootParameters::visit(ParameterVisitor& v) {
     static constexpr std::array<std::string_view, 4> kPlaces{"bottom", "top", "centre", "darkest"};
     choice(v, {"place", "", "where growth starts, always on a cheap node nearby"}, place, kPlaces);
     v.number({"inset", "u", "how far from the frame the bottom or top root lies"}, inset, 0, 200);
+    v.text({"interest", "", "field whose high places are good for roots"}, interest);
+    v.number({"smallest_part", "u^2", "connected parts of the mask smaller than this get no root"}, smallest_part, 0, 1e6f);
+    v.flag({"every_part", "", "parts in which the user puts no root get one of their own"}, every_part);
 }
 
 void EndpointParameters::visit(ParameterVisitor& v) {
@@ -30,6 +35,8 @@ void EndpointParameters::visit(ParameterVisitor& v) {
     v.number({"jitter", "", "discs: random share in the priority"}, jitter, 0, 4);
     v.number({"calm_spacing", "u", "distance between endpoints at density 0"}, calm_spacing, 0.5f, 500);
     v.number({"dense_spacing", "u", "distance between endpoints at density 1"}, dense_spacing, 0.5f, 500);
+    v.number({"close_loops", "u", "discs: join ways around holes that are longer than this; 0: leave them open"},
+             close_loops, 0, 2000);
     v.number({"keep_off", "", "discs: share of the spacing kept from what is drawn already"}, keep_off, 0, 2);
 }
 

@@ -17,6 +17,7 @@ struct LatticeParameters {
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
     float margin = 5;  ///< u: nothing grows this near to the frame
+    float stem = 0;    ///< u: with a mask, how wide its strokes are; 0: u is 1/1024 of the long side
 
     void visit(ParameterVisitor& visitor);
 };
@@ -26,6 +27,9 @@ struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
     float inset = 16;  ///< u: distance from the frame of `bottom` and `top`
+    std::string interest = "importance";  ///< field: where it is high roots are best
+    float smallest_part = 9;              ///< u^2: smaller connected parts get no root
+    bool every_part = false;              ///< parts without a root of the user's get one of their own
 
     void visit(ParameterVisitor& visitor);
 };
@@ -39,6 +43,7 @@ struct EndpointParameters {
     std::string priority = "density";  ///< discs: field, highest first
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
+    float close_loops = 0;  ///< u: ways around a hole longer than this are joined; 0: never
     float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
 
     void visit(ParameterVisitor& visitor);

@@ -116,11 +116,15 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
     warp(out.dendrite, out.lattice, style.stroke, u, controls.seed);
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Grid<float> width_sum;
+    Grid<float> width_sum, half_width;
     if (style.width.field > 0) width_sum = weighted_sum(fields, style.width.fields);
+    if (style.width.room_share > 0) {
+        half_width = fields["room"];
+        transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
+    }
     Widths widths(out.dendrite, b, style.width,
                   {fields["tone"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
-                   &grown.node_cost},
+                   &grown.node_cost, half_width.empty() ? nullptr : &half_width},
                   u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
@@ -130,7 +134,7 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const std::vector<std::vector<float>> shares = tip_shares(lines, b);
     out.strokes = drawn.size();
     out.width_u = widths.widths();
-    for (float& w : out.width_u) w /= u;
+    for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
     out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
                                      drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
                                      controls.seed, &picture, shares});

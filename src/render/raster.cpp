@@ -14,6 +14,7 @@
 #include "render/detail_grain.h"
 #include "render/detail_polygon.h"
 #include "render/detail_prepare.h"
+#include "render/detail_relief.h"
 
 namespace dstylize {
 namespace {
@@ -153,21 +154,24 @@ Picture painted(const DisplayList& list, const Paper& paper, std::span<const Lay
     return out;
 }
 
-/// The first layer of light, or the end.
-std::size_t next_glow(std::span<const Layer> layers) {
+/// The first layer of light or relief, or the end.
+std::size_t next_effect(std::span<const Layer> layers) {
     std::size_t l = 0;
-    while (l < layers.size() && !layers[l].glow) ++l;
+    while (l < layers.size() && !layers[l].glow && !layers[l].relief) ++l;
     return l;
 }
 
 Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
     std::span<const Layer> rest = list.layers;
-    std::size_t paint = next_glow(rest);
+    std::size_t paint = next_effect(rest);
     Picture out = painted(list, list.paper, rest.first(paint), size_px, work);
     for (rest = rest.subspan(paint); !rest.empty(); rest = rest.subspan(paint)) {
-        expose(out, emission_plane(list, rest.first(1), size_px, work), *rest[0].glow, work);
+        if (rest[0].glow)
+            expose(out, emission_plane(list, rest.first(1), size_px, work), *rest[0].glow, work);
+        else
+            raise(out, body(list, rest[0], size_px, work), list, *rest[0].relief, work);
         rest = rest.subspan(1);
-        paint = next_glow(rest);
+        paint = next_effect(rest);
         if (paint == 0) continue;
         const Paper below{{}, 0, 0, std::make_shared<Picture>(std::move(out))};
         out = painted(list, below, rest.first(paint), size_px, work);
