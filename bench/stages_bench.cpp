@@ -9,7 +9,7 @@
 #include "graph/bucket_planner.h"
 #include "graph/graph_distance.h"
 #include "pipeline/growth.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 #include "render/raster.h"
@@ -28,7 +28,7 @@ Picture sample() {
 struct Vine {
     Picture picture = sample();
     Style style = load_style("vine");
-    Prepared base = prepared(picture, style, {});
+    PreparedPicture base = prepared_picture(picture, style, {});
     Grown grown;
     WeightedLattice graph{Lattice(base.fields.extent(), style.lattice.neighbourhood), {}, {}, true};
     std::vector<Source> sources;
@@ -55,7 +55,7 @@ Vine& vine() {
 void field(benchmark::State& state, std::string_view name) {
     for (auto _ : state) {
         state.PauseTiming();
-        Prepared fresh = prepared(vine().picture, vine().style, {});
+        PreparedPicture fresh = prepared_picture(vine().picture, vine().style, {});
         state.ResumeTiming();
         benchmark::DoNotOptimize(fresh.fields[name].data());
     }
@@ -63,7 +63,7 @@ void field(benchmark::State& state, std::string_view name) {
 void flow(benchmark::State& state) {
     for (auto _ : state) {
         state.PauseTiming();
-        Prepared fresh = prepared(vine().picture, vine().style, {});
+        PreparedPicture fresh = prepared_picture(vine().picture, vine().style, {});
         state.ResumeTiming();
         benchmark::DoNotOptimize(fresh.fields.flow().data());
     }
@@ -76,8 +76,7 @@ void endpoints_discs(benchmark::State& state) {
     std::size_t count = 0;
     for (auto _ : state) {
         Occupancy occupancy(tone.extent());
-        DiscRequest request{tone, tone};
-        request.noise = Noise(1, Purpose::endpoints);
+        const DiscRequest request{.priority = tone, .density = tone, .noise = Noise(1, Purpose::endpoints)};
         count = poisson_discs(request, occupancy).size();
     }
     count_endpoints(state, count);

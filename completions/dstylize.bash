@@ -23,7 +23,7 @@ _dstylize() {
     --set | --detail | --seed | --size | --scale | --quality | --compression | --text-size | --place | --letter-spacing | --line-spacing | --threads | --max-memory) return ;;
     *)
         if [[ $verb == styles ]]; then
-            words="$styles --fields -h --help"
+            words="$styles --fields --copy -f --force -h --help"
         elif [[ $word == -* ]]; then
             words=$output
             [[ $verb == replay ]] || words+=" $draw"

@@ -14,6 +14,7 @@ complete -c dstylize -n $writes -l letter-spacing -x -d 'added between letters, 
 complete -c dstylize -n $writes -l line-spacing -x -d '1 is the own of the font'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -fa '(dstylize styles | string split -f 1 " ")'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -l fields -d 'list the fields'
+complete -c dstylize -n '__fish_seen_subcommand_from styles' -l copy -d 'copy a style to a file'
 
 complete -c dstylize -n $draw -s s -l style -ra '(dstylize styles | string split -f 1 " ")' -d 'style or .toml file'
 complete -c dstylize -n $draw -l set -x -d 'change a parameter, KEY=VALUE'

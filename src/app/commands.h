@@ -30,6 +30,9 @@ RunReport run_and_report(const RunRequest& request, const Arguments& arguments, 
 CodecOptions codec_options(const Arguments& arguments);
 void refuse_folder(const std::filesystem::path& input);
 
+/// Where a user keeps styles of their own: dstylize/styles in the XDG configuration folder; empty without a home.
+std::filesystem::path user_style_folder();
+
 /// Writes to standard output. Throws Error(cannot_write).
 void print(const std::string& text);
 
