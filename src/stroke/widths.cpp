@@ -30,7 +30,8 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"tone", "", "weight of tone width: wanted tone / line density"}, tone, 0, 1);
     v.number({"importance", "", "weight of importance width"}, importance, 0, 1);
     v.number({"branch", "", "weight of branch width: grows with the number of tips that a node carries"}, branch, 0, 1);
-    v.number({"tips", "", "weight of tips width: the narrowest times a power of the tips that a node carries"}, tips, 0, 1);
+    v.number({"tips", "", "weight of tips width: the narrowest times a power of the tips that a node carries"}, tips, 0,
+             1);
     v.number({"constant", "", "weight of a constant width"}, constant, 0, 1);
     v.number({"field", "", "weight of a width that follows `fields`"}, field, 0, 1);
     v.number({"path", "", "weight of path width V = exp(-alpha (c T)^2): falls with the way's cost from the root"},
@@ -49,9 +50,10 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"path_side", "", "T of side branches by the order: 1, path_side, path_side^2, ..."}, path_side, 1, 10);
     v.number({"branch_exponent", "", "share of tips to this power is the branch width (pipe model: 0.5)"},
              branch_exponent, 0.1f, 1);
-    v.number({"tips_exponent", "", "number of tips to this power, times the narrowest, is the tips width"}, tips_exponent,
-             0.05f, 1);
-    v.number({"room_share", "", "most of the shape's half width that a stroke may take; 0: no limit"}, room_share, 0, 2);
+    v.number({"tips_exponent", "", "number of tips to this power, times the narrowest, is the tips width"},
+             tips_exponent, 0.05f, 1);
+    v.number({"room_share", "", "most of the shape's half width that a stroke may take; 0: no limit"}, room_share, 0,
+             2);
     v.number({"trunk", "u", "least width of the trunk at its root, 0: no trunk"}, trunk, 0, 80);
     v.number({"trunk_least_tone", "", "share of the trunk's width that stays where the picture is light"},
              trunk_least_tone, 0, 1);
@@ -116,8 +118,8 @@ float Widths::raw_width(std::uint32_t v, float tone_width) const {
     const WidthParameters& p = parameters_;
     const float narrow = p.narrowest * u_, wide = p.widest * u_;
     const bool by_field = p.field > 0 && fields_.sum, by_path = !path_share_.empty();
-    const float total = p.tone + p.importance + p.branch + p.tips + p.constant + (by_field ? p.field : 0) +
-                        (by_path ? p.path : 0);
+    const float total =
+        p.tone + p.importance + p.branch + p.tips + p.constant + (by_field ? p.field : 0) + (by_path ? p.path : 0);
     if (total <= 0) return narrow;
     const auto between = [&](float share) { return narrow + (wide - narrow) * share; };
     float sum = p.tone * tone_width + p.constant * p.constant_width * u_;

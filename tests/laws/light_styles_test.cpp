@@ -29,7 +29,8 @@ class Changes final : public ParameterVisitor {
     explicit Changes(std::string table) : table_(std::move(table)) {}
     void number(ParameterDoc doc, float& value, float lo, float hi) override {
         // To the farther end, but not beyond what any picture could show.
-        const float far = value - lo > 0.25f * (hi - lo) ? lo + 1e-3f * (hi - lo) : std::min(hi, 3 * value + 0.3f * (hi - lo));
+        const float far =
+            value - lo > 0.25f * (hi - lo) ? lo + 1e-3f * (hi - lo) : std::min(hi, 3 * value + 0.3f * (hi - lo));
         add(doc, std::to_string(far));
     }
     void integer(ParameterDoc doc, int& value, int lo, int hi) override {
