@@ -77,7 +77,7 @@ struct Layer {
     std::string name;
     Blend blend = Blend::over;
     std::vector<Item> items;
-    std::optional<Glow> glow = std::nullopt;  ///< set: the items are not paint but light; their colours say nothing
+    std::optional<Glow> glow = std::nullopt;      ///< set: the items are not paint but light; their colours say nothing
     std::optional<Relief> relief = std::nullopt;  ///< set: the strokes are a body
 };
 

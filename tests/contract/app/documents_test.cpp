@@ -16,7 +16,7 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
 }
 
 std::string repository_file(const std::string& path) {
-    const std::string text = file_bytes(std::filesystem::path(DSTYLIZE_SOURCE_DIR) / path);
+    std::string text = file_bytes(std::filesystem::path(DSTYLIZE_SOURCE_DIR) / path);
     EXPECT_FALSE(text.empty()) << path;
     return text;
 }
