@@ -46,6 +46,8 @@ const Grid<float>& Fields::operator[](std::string_view name) {
     return *cache_[row];
 }
 
+void Fields::replace(std::string_view name, Grid<float> field) { cache_[row_of(name)] = std::move(field); }
+
 const FlowField& Fields::flow() {
     if (!flow_) flow_ = field::flow(*this);
     return *flow_;
@@ -55,6 +57,10 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"stretch_low", "%", "luma percentile that becomes black"}, stretch_low, 0, 49);
     v.number({"stretch_high", "%", "luma percentile that becomes white"}, stretch_high, 51, 100);
     v.flag({"bright", "", "draw the light parts instead of the dark ones"}, bright);
+    v.number({"tone_local", "", "how much the tone is judged against its surroundings: brings faces out of shadow"},
+             tone_local, 0, 3);
+    v.number({"tone_local_scale", "u", "size of those surroundings"}, tone_local_scale, 2, 300);
+    v.number({"tone_contrast", "", "share of an S-shaped curve in the tone"}, tone_contrast, 0, 1);
     v.number({"tone_equalise", "", "share of histogram equalisation in the tone"}, tone_equalise, 0, 1);
     v.number({"tone_white", "", "tone at and below this stays paper"}, tone_white, 0, 0.5f);
     v.number({"tone_black", "", "tone at and above this is fully inked"}, tone_black, 0.5f, 1);

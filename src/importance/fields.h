@@ -11,10 +11,24 @@
 
 namespace dstylize {
 
+/// The shape that a drawing keeps to and how far the picture leads inside: the [crown] table. Places and
+/// sizes are shares of the frame's sides.
+struct CrownParameters {
+    bool shaped = false;  ///< else the whole frame
+    float x = 0.5f, y = 0.42f, width = 0.96f, height = 0.8f;
+    float power = 2.6f, lobes = 0.1f, soft = 0.12f;
+    float likeness = 1;
+    float free_side = 0, free_ramp = 0.3f;
+    float free_tone = 0.34f, free_scale = 70;
+
+    void visit(ParameterVisitor& visitor);
+};
+
 /// How the fields are read off a picture: the [fields] table of a style. Lengths in u.
 struct FieldParameters {
     float stretch_low = 2, stretch_high = 98;
     bool bright = false;
+    float tone_local = 0, tone_local_scale = 36, tone_contrast = 0;
     float tone_equalise = 0.4f, tone_white = 0.12f, tone_black = 0.90f;
     float gradient_scale = 1.2f, gradient_wide_scale = 3, gradient_wide_share = 0.8f;
     float gradient_percentile = 97, gradient_gamma = 0.8f;
@@ -26,6 +40,7 @@ struct FieldParameters {
     float smooth_noise_scale = 3;
     float flow_fine = 6, flow_coarse = 28, flow_coarse_share = 0.5f, flow_swirl = 0.25f;
     float calm_scale = 45, calm_detail = 0.13f, calm_tone = 0.45f;
+    CrownParameters crown;  ///< a table of its own in style files
 
     void visit(ParameterVisitor& visitor);
 };
@@ -34,6 +49,7 @@ struct FieldParameters {
 struct UserMaps {
     std::optional<Grid<float>> importance;
     bool importance_replaces = false;  ///< else the map is multiplied in
+    bool no_picture = false;           ///< nothing leads: what can be drawn without a picture is
 };
 
 /// Local orientation of the picture: a unit direction along its structures times the coherence in
@@ -57,6 +73,8 @@ class Fields {
     /// The field called `name`. Throws Error(bad_usage) naming the nearest for an unknown one.
     const Grid<float>& operator[](std::string_view name);
     const FlowField& flow();
+    /// Puts another field in the place of the one called `name`: `lacking` changes as a drawing grows.
+    void replace(std::string_view name, Grid<float> field);
 
     static std::span<const std::string_view> names();
     static std::string_view meaning(std::string_view name);

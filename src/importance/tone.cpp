@@ -2,10 +2,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vec.h"
 #include "importance/detail_field_functions.h"
 #include "imaging/filters.h"
 
 namespace dstylize::field {
+namespace {
+
+/// Adds the difference to the mean of the surroundings and stretches what comes out over [0, 1].
+void against_surroundings(Grid<float>& tone, float amount, float sigma) {
+    const Grid<float> around = blurred(tone, sigma);
+    for (std::size_t n = 0; n < tone.size(); ++n) tone[n] += amount * (tone[n] - around[n]);
+    const float lo = percentile(tone, 2), hi = percentile(tone, 98);
+    if (hi - lo > 1e-4f) transform(tone, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+}
+
+}  // namespace
 
 Grid<float> luma(Fields& fields) { return fields.source_luma(); }
 
@@ -28,6 +40,7 @@ Grid<float> darkness(Fields& fields) {
 Grid<float> tone(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<float> out = fields[p.bright ? "lightness" : "darkness"];
+    if (p.tone_local > 0) against_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     const float equalise = p.tone_equalise;
     if (equalise > 0) {
         const Grid<float> ranks = rank(out);
@@ -35,6 +48,8 @@ Grid<float> tone(Fields& fields) {
     }
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
     transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
+    if (p.tone_contrast > 0)
+        transform(out, [&](float v) { return v + p.tone_contrast * (smoothstep(0.08f, 0.82f, v) - v); });
     if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)
         for (std::size_t n = 0; n < out.size(); ++n) out[n] *= (*map)[n];
     return out;

@@ -1,9 +1,11 @@
 #include "pipeline/prepared.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "imaging/filters.h"
 #include "importance/frame.h"
+#include "graph/scattered_lattice.h"
 #include "pipeline/stylize.h"
 
 namespace dstylize {
@@ -23,6 +25,25 @@ Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, co
     return out;
 }
 
+/// A plane of the picture on the lattice: as large as the frame, or set into it and continued by its rim.
+Grid<float> placed(const Grid<float>& plane, Extent lattice, const LatticeParameters& p) {
+    if (p.picture_scale == 1 && p.picture_x == 0.5f && p.picture_y == 0.5f) return resized(plane, lattice);
+    const auto side = [&](int nodes) { return std::max(1, int(std::lround(double(p.picture_scale) * nodes))); };
+    const Grid<float> inner = resized(plane, {side(lattice.x), side(lattice.y)});
+    const int left = int(std::lround(p.picture_x * float(lattice.x) - 0.5f * float(inner.extent().x)));
+    const int top = int(std::lround(p.picture_y * float(lattice.y) - 0.5f * float(inner.extent().y)));
+    Grid<float> out(lattice);
+    for (int j = 0; j < lattice.y; ++j)
+        for (int i = 0; i < lattice.x; ++i)
+            out(i, j) = inner(std::clamp(i - left, 0, inner.extent().x - 1), std::clamp(j - top, 0, inner.extent().y - 1));
+    return out;
+}
+
+Lattice laid_lattice(const Grid<std::uint8_t>& passable, const LatticeParameters& p, std::uint64_t seed, const Work& work) {
+    if (p.kind == LatticeParameters::Kind::regular) return Lattice(passable.extent(), p.neighbourhood);
+    return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), work);
+}
+
 }  // namespace
 
 Extent lattice_extent(Extent picture, int detail) {
@@ -31,15 +52,19 @@ Extent lattice_extent(Extent picture, int detail) {
     return {nodes(picture.x), nodes(picture.y)};
 }
 
-Prepared prepared(const Picture& picture, const Style& style, const Controls& controls) {
+Prepared prepared(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     const Extent lattice = lattice_extent(picture.extent(), style.lattice.detail);
     UserMaps maps;
-    if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), lattice);
+    if (controls.importance) maps.importance = placed(luma_plane(*controls.importance), lattice, style.lattice);
     maps.importance_replaces = controls.importance_replaces;
+    maps.no_picture = controls.no_picture;
     Grid<float> luma = luma_plane(picture);
     paint_over_frame(luma);
-    return {Fields(resized(luma, lattice), style.fields, std::move(maps), controls.seed),
-            passable_nodes(picture, style, controls, lattice)};
+    if (controls.no_picture) luma = Grid<float>(luma.extent(), 0.5f);
+    Grid<std::uint8_t> passable = passable_nodes(picture, style, controls, lattice);
+    Lattice laid = laid_lattice(passable, style.lattice, controls.seed, work);
+    return {Fields(placed(luma, lattice, style.lattice), style.fields, std::move(maps), controls.seed), std::move(laid),
+            std::move(passable)};
 }
 
 }  // namespace dstylize

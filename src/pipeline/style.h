@@ -14,9 +14,12 @@ namespace dstylize {
 
 /// What the dendrite grows on: the [lattice] table.
 struct LatticeParameters {
+    enum class Kind { regular, scattered };
+    Kind kind = Kind::regular;
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
     float margin = 5;  ///< u: nothing grows this near to the frame
+    float picture_scale = 1, picture_x = 0.5f, picture_y = 0.5f;  ///< the picture inside the frame
 
     void visit(ParameterVisitor& visitor);
 };
@@ -25,6 +28,7 @@ struct LatticeParameters {
 struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
+    float centring = 0.35f;  ///< how much a place in the middle counts against an important one
     float inset = 16;  ///< u: distance from the frame of `bottom` and `top`
 
     void visit(ParameterVisitor& visitor);
@@ -32,7 +36,7 @@ struct RootParameters {
 
 /// Where paths must arrive: a stage's [stage.endpoints] table. Lengths in u.
 struct EndpointParameters {
-    enum class Rule { stipples, discs };
+    enum class Rule { stipples, discs, above };
     Rule rule = Rule::discs;
     std::string density = "density";  ///< field: 0 calm spacing, 1 dense spacing
     float density_blur = 0, density_exponent = 1, density_toe = 0;
@@ -40,6 +44,10 @@ struct EndpointParameters {
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
     float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
+    float first_spacing = 1;  ///< the first batch's spacings as a multiple of the last's
+    int most = 0;             ///< at most so many in the first batch, the later ones as spacings allow; 0: any number
+    float within = 0;         ///< edges (at 1024 nodes) from the structure; 0: anywhere
+    float reach = 300;        ///< above: u from the root
 
     void visit(ParameterVisitor& visitor);
 };
@@ -57,6 +65,12 @@ struct StageParameters {
     int levels = 255;
     float along_flow = 0;
     float down = 0;
+    float up = 0, wind = 0;
+    float noise_white = 0, noise_smooth = 0, noise_scale = 36;
+    float bare = 0;
+    int batches = 1;
+    float path_lack = -1, path_longest = 0;
+    std::string path_inside;
     EndpointParameters endpoints;
 
     void visit(ParameterVisitor& visitor);

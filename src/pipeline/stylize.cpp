@@ -74,10 +74,10 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
 
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     work.report("fields", 0);
-    Prepared base = prepared(picture, style, controls);
+    Prepared base = prepared(picture, style, controls, work);
     Fields& fields = base.fields;
     const float u = fields.u();
-    Grown grown = grow(fields, base.passable, style, controls, picture.extent(), {}, work);
+    Grown grown = grow(base, style, controls, picture.extent(), {}, work);
 
     work.report("strokes", 0.75);
     Drawing out;
@@ -90,7 +90,7 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const Branching b = branching(out.dendrite);
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Widths widths(out.dendrite, b, style.width, {fields["tone"], fields["lines"], fields["importance"]}, u);
+    Widths widths(out.dendrite, b, style.width, {fields["wanted"], fields["lines"], fields["importance"], fields["guided"]}, u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
     work.report("drawing", 0.85);

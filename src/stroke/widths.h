@@ -4,14 +4,15 @@
 #include "core/branching.h"
 #include "core/grid.h"
 #include "core/parameters.h"
+#include "stroke/pipe.h"
 
 namespace dstylize {
 
-/// How wide the strokes are: the [width] table of a style. Lengths in u. The four rules are blended
+/// How wide the strokes are: the [width] table of a style. Lengths in u. The five rules are blended
 /// by their weights: tone (wanted tone / line density, ours), importance (004 s. 4.3), branch (pipe
-/// model), constant.
+/// model of the number of tips), constant, piped (pipe model, pipe.h).
 struct WidthParameters {
-    float tone = 1, importance = 0, branch = 0, constant = 0;
+    float tone = 1, importance = 0, branch = 0, constant = 0, piped = 0;
     float narrowest = 0.45f, widest = 4.2f;
     float constant_width = 1.4f;
     float tone_gamma = 1.8f, tone_most = 0.86f, tone_lines = 0.3f;
@@ -21,13 +22,16 @@ struct WidthParameters {
     float trunk = 7, trunk_least_tone = 0.3f;
     float window = 9;
     float tip = 14, tip_width = 0.45f;
+    float swing = 0;  ///< twigs are wider where ink is wanted, thinner where it is not
+    float wanted_gain = 1.3f;
+    PipeParameters pipe;
 
     void visit(ParameterVisitor& visitor);
 };
 
 /// The fields that widths look at, at the lattice's extent, values in [0, 1].
 struct WidthFields {
-    const Grid<float>&tone, &lines, &importance;
+    const Grid<float>&tone, &lines, &importance, &guided;
 };
 
 /// Widths of a dendrite's nodes, in lattice steps. Use: construct, read `widths()`, draw, compare the
@@ -50,6 +54,7 @@ class Widths {
 
   private:
     float raw_width(std::uint32_t v, float tone_width) const;
+    float swing(std::uint32_t v, float width) const;
     void finish();
     void roll(std::vector<float>& values) const;
     void raise_trunk();
@@ -62,6 +67,7 @@ class Widths {
     WidthFields fields_;
     float u_;
     Grid<float> target_ink_;
+    std::vector<float> pipe_;  // empty without the pipe rule
     std::vector<float> raw_, widths_;
 };
 
