@@ -16,6 +16,8 @@ constexpr const char* kHand = "By hand";
 constexpr const char* kOutput = "Output";
 constexpr const char* kRun = "Run";
 constexpr int kHelpColumn = 30;
+/// What the codec needs before it has seen a picture, and a little more.
+constexpr std::uint64_t kLeastMemory = 256u << 20;
 
 class HelpFormatter final : public CLI::Formatter {
   public:
@@ -164,6 +166,8 @@ void Parser::parse(std::vector<std::string> words) {
     } catch (const CLI::ParseError& error) {
         throw usage_error("", error.what(), "see dstylize --help");
     }
+    if (arguments_.max_memory < kLeastMemory)
+        throw usage_error("--max-memory", "is less than reading any picture takes", "give at least 256M");
     std::vector<std::string> known;
     for (const CLI::Option* option : app_.get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

@@ -11,6 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto kSilentFor = 1s;
 constexpr auto kRedraw = 200ms;
+constexpr std::size_t kLongestStep = 50;  // of a line that must not wrap
 constexpr const char* kClearLine = "\r\033[K";
 
 }  // namespace
@@ -35,7 +36,8 @@ void Progress::end_step() {
 }
 
 void Progress::finish() {
-    if (finished_ != start_) return;
+    if (is_finished_) return;
+    is_finished_ = true;
     if (drawer_.joinable()) {
         drawer_.request_stop();
         drawer_.join();
@@ -54,7 +56,8 @@ void Progress::keep_drawing(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         if (!steps_.empty()) {
             const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first, 100 * share_done_);
+            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep),
+                                           100 * share_done_);
             if (share_done_ > 0.05) line += fmt::format(" · {:.0f} s left", elapsed / share_done_ - elapsed);
             std::fputs(line.c_str(), stderr);
             std::fflush(stderr);

@@ -35,6 +35,7 @@ class Progress {
     Clock::time_point step_start_ = start_, finished_ = start_;
     std::vector<std::pair<std::string, double>> steps_;
     double share_done_ = 0;
+    bool is_finished_ = false;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::jthread drawer_;

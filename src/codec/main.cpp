@@ -1,24 +1,24 @@
 // dstylize-codec decodes and encodes pictures for dstylize, one request after the other, over the channel
-// that it is started with. It alone loads OpenImageIO, and it alone touches hostile bytes: it may crash
-// or hang, and is then ended and replaced. It ends when the channel closes.
+// that it is started with. It alone loads OpenImageIO, which takes long, and then works in a forked child
+// (supervisor.h), which alone touches hostile bytes. It ends when the channel closes.
 #include <OpenImageIO/imageio.h>
-#include <poll.h>
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <new>
 #include <string>
 #include <string_view>
-#include <thread>
 
 #include "codec/decode.h"
 #include "codec/encode.h"
 #include "codec/refusal.h"
+#include "codec/supervisor.h"
 #include "ipc/channel.h"
 #include "ipc/codec_protocol.h"
 #include "ipc/shared_memory.h"
@@ -46,24 +46,6 @@ void limit_resources(std::uint64_t max_memory_bytes) {
     if (max_memory_bytes > RLIM_INFINITY - loaded) return;
     const rlimit space{loaded + max_memory_bytes, loaded + max_memory_bytes};
     setrlimit(RLIMIT_AS, &space);
-}
-
-/// Ends this process as soon as the other end of the channel is gone, however busy or stuck it is. (The
-/// kernel's parent-death signal would also come when merely the thread that started us ends.)
-void end_with(const ipc::Descriptor& channel) {
-    std::thread([number = channel.number()] {
-        pollfd hangup{number, 0, 0};
-        while (poll(&hangup, 1, -1) < 0) continue;
-        _exit(0);
-    }).detach();
-}
-
-void refuse(ipc::CodecAnswer& answer, const std::string& problem, const std::string& remedy, bool retires) {
-    answer = {};
-    answer.status = ipc::CodecStatus::refused;
-    answer.retires = retires;
-    problem.copy(answer.problem, sizeof(answer.problem) - 1);
-    remedy.copy(answer.remedy, sizeof(answer.remedy) - 1);
 }
 
 ipc::Descriptor decode(const ipc::CodecRequest& request, const ipc::Descriptor& file, std::uint64_t max_memory_bytes,
@@ -94,25 +76,52 @@ ipc::Descriptor encode(const ipc::CodecRequest& request, const ipc::Descriptor& 
     return file;
 }
 
-/// Answers one request. False when the channel is gone or this process must not go on.
-bool serve(const ipc::Descriptor& channel, std::uint64_t max_memory_bytes) {
-    ipc::CodecRequest request;
+ipc::CodecAnswer refusal_of(const std::string& problem, const std::string& remedy) {
     ipc::CodecAnswer answer;
-    ipc::Descriptor payload, result;
-    if (ipc::receive_struct(channel, request, payload) != ipc::Arrival::message) return false;
-    answer.status = ipc::CodecStatus::done;
+    answer.status = ipc::CodecStatus::refused;
+    problem.copy(answer.problem, sizeof(answer.problem) - 1);
+    remedy.copy(answer.remedy, sizeof(answer.remedy) - 1);
+    return answer;
+}
+
+/// Whether this process may go on after what it has seen.
+enum class Trust { kept, lost };
+
+Trust answer_request(const ipc::CodecRequest& request, const ipc::Descriptor& payload, std::uint64_t max_memory_bytes,
+                     ipc::CodecAnswer& answer, ipc::Descriptor& result) {
     try {
+        answer.status = ipc::CodecStatus::done;
         result = request.operation == ipc::CodecOperation::decode ? decode(request, payload, max_memory_bytes, answer)
                                                                   : encode(request, payload, answer);
+        return Trust::kept;
     } catch (const codec::Refusal& refusal) {
-        refuse(answer, refusal.what(), refusal.remedy, refusal.harmful);
+        answer = refusal_of(refusal.what(), refusal.remedy);
+        return refusal.harmful ? Trust::lost : Trust::kept;
     } catch (const std::bad_alloc&) {
-        refuse(answer, "needs more memory than the limit of " + std::to_string(max_memory_bytes >> 20) + " MB",
-               "raise --max-memory or make it smaller", true);
+        answer = refusal_of(fmt::format("needs more memory than the limit of {} MB", max_memory_bytes >> 20),
+                            "raise --max-memory or make it smaller");
     } catch (const std::exception& error) {
-        refuse(answer, std::string("is damaged (") + error.what() + ")", "export it again", true);
+        answer = refusal_of(fmt::format("is damaged ({})", error.what()), "export it again");
     }
-    return ipc::send_struct(channel, answer, result.number()) && !answer.retires;
+    return Trust::lost;
+}
+
+/// The worker: answers requests until the channel closes or it has met damage. `busy` tells the others.
+codec::WorkerEnd serve(const ipc::Descriptor& channel, std::uint64_t max_memory_bytes, std::atomic<bool>& busy) {
+    OIIO::attribute("threads", 2);
+    OIIO::attribute("exr_threads", 2);
+    while (true) {
+        ipc::CodecRequest request;
+        ipc::CodecAnswer answer;
+        ipc::Descriptor payload, result;
+        if (ipc::receive_struct(channel, request, payload) != ipc::Arrival::message)
+            return codec::WorkerEnd::channel_closed;
+        busy = true;
+        const Trust trust = answer_request(request, payload, max_memory_bytes, answer, result);
+        busy = false;
+        if (!ipc::send_struct(channel, answer, result.number())) return codec::WorkerEnd::channel_closed;
+        if (trust == Trust::lost) return codec::WorkerEnd::retired;
+    }
 }
 
 }  // namespace
@@ -125,12 +134,8 @@ int main(int argument_count, char** arguments) {
         return 2;
     }
     const ipc::Descriptor channel(ipc::kCodecChannel);
-    OIIO::attribute("threads", 2);
-    OIIO::attribute("exr_threads", 2);
     limit_resources(max_memory_bytes);
-    end_with(channel);
     if (!ipc::send_struct(channel, ipc::CodecGreeting{})) return 1;
-    while (serve(channel, max_memory_bytes)) continue;
-    // No destructors: after a hostile file they could crash or hang.
-    _exit(0);
+    codec::supervise(channel, [&](std::atomic<bool>& busy) { return serve(channel, max_memory_bytes, busy); });
+    return 0;
 }

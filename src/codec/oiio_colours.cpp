@@ -71,12 +71,30 @@ std::optional<StatedColours> stated_colours(FileFormat format, const ImageSpec& 
     return std::nullopt;
 }
 
+/// Gives a tag that lies in the file another number.
+void rewrite_tag(const ipc::Descriptor& file, const TiffDirectory& directory, TiffTagId id, TiffType type,
+                 std::uint32_t number) {
+    const TiffTag* tag = directory.find(id);
+    if (!tag) return;
+    const bool is_short = type == TiffType::short_integer;
+    std::string entry;
+    append_integer(entry, std::uint64_t(id), 2, directory.endian);
+    append_integer(entry, std::uint64_t(type), 2, directory.endian);
+    append_integer(entry, 1, 4, directory.endian);
+    append_integer(entry, number, is_short ? 2 : 4, directory.endian);
+    if (is_short) append_integer(entry, 0, 2, directory.endian);
+    ipc::write_all(file, bytes_of(entry), tag->entry_offset);
+}
+
 }  // namespace
 
 TiffColours taken_over_colours(const ipc::Descriptor& file, const TiffDirectory& directory) {
     constexpr std::uint32_t kWhiteIsZero = 0, kBlackIsZero = 1, kPalette = 3;
     TiffColours colours;
-    const TiffTag* photometric = directory.find(TiffTagId::photometric);
+    // Its arithmetic on more rows than there are overflows into an endless loop.
+    const auto rows = directory.integer(TiffTagId::image_length);
+    if (rows && directory.integer(TiffTagId::rows_per_strip).value_or(0) > *rows)
+        rewrite_tag(file, directory, TiffTagId::rows_per_strip, TiffType::long_integer, *rows);
     const auto stated = directory.integer(TiffTagId::photometric);
     const bool extra_samples = directory.integer(TiffTagId::samples_per_pixel).value_or(1) > 1;
     if (stated == kWhiteIsZero) {
@@ -94,13 +112,7 @@ TiffColours taken_over_colours(const ipc::Descriptor& file, const TiffDirectory&
     } else {
         return colours;
     }
-    std::string entry;
-    append_integer(entry, std::uint64_t(TiffTagId::photometric), 2, directory.endian);
-    append_integer(entry, std::uint64_t(TiffType::short_integer), 2, directory.endian);
-    append_integer(entry, 1, 4, directory.endian);
-    append_integer(entry, kBlackIsZero, 2, directory.endian);
-    append_integer(entry, 0, 2, directory.endian);
-    ipc::write_all(file, bytes_of(entry), photometric->entry_offset);
+    rewrite_tag(file, directory, TiffTagId::photometric, TiffType::short_integer, kBlackIsZero);
     return colours;
 }
 

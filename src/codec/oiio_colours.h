@@ -16,9 +16,9 @@ struct TiffColours {
     std::vector<Rgba8> palette;  ///< of indices with further samples beside them
 };
 
-/// Takes such TIFFs over: rewrites their photometric tag in `file` to "0 is black", so that OpenImageIO
-/// delivers bare samples. (It leaves 0-is-white pictures of more than 8 bits inverted, and reads a palette
-/// with alpha as noise.) Throws Refusal for palettes that cannot be taken over.
+/// Takes such TIFFs over, and mends a number of rows per strip beyond the picture: rewrites their photometric tag in
+/// `file` to "0 is black", so that OpenImageIO delivers bare samples. (It leaves 0-is-white pictures of more than 8
+/// bits inverted, and reads a palette with alpha as noise.) Throws Refusal for palettes that cannot be taken over.
 TiffColours taken_over_colours(const ipc::Descriptor& file, const TiffDirectory& directory);
 
 /// What the samples mean that a reader with this spec delivers.

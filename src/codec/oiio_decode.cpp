@@ -1,12 +1,14 @@
 #include "codec/oiio_decode.h"
 
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codec/oiio_colours.h"
@@ -20,14 +22,26 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// What the reader complained about, as part of one line, without our name for the file.
+/// What the reader complained about, as part of one line, without our name for the file. Empty when it
+/// is something that harms no pixel.
 std::string complaint(const ImageInput& input, const std::string& path) {
     std::string text = input.geterror();
-    for (const std::string& noise : {"\"" + path + "\"", path, std::string("OpenImageIO: ")})
-        for (std::size_t at; (at = text.find(noise)) != std::string::npos;) text.erase(at, noise.size());
+    for (const std::string_view harmless : {"unknown JFIF revision", "before marker 0xd9"})
+        if (text.find(harmless) != std::string::npos && text.find('\n') == std::string::npos) return "";
     text = text.substr(0, text.find('\n'));
-    while (!text.empty() && (text.back() == ' ' || text.back() == '(' || text.back() == '.')) text.pop_back();
+    for (const std::string& noise : {fmt::format(" (\"{}\")", path), fmt::format("\"{}\"", path), path})
+        for (std::size_t at; (at = text.find(noise)) != std::string::npos;) text.erase(at, noise.size());
+    while (!text.empty() && (text.back() == ' ' || text.back() == '.' || text.back() == ':')) text.pop_back();
     return text.substr(0, 200);
+}
+
+/// Damage, or a kind that the reader does not know: what it says tells which.
+Refusal unreadable(const std::string& complaint) {
+    for (const std::string_view sign : {"upport", "not implemented", "exceeds \"limits"})
+        if (complaint.find(sign) != std::string::npos)
+            return Refusal(fmt::format("is of a kind that is not read ({})", complaint), "convert it to PNG or JPEG",
+                           true);
+    return damaged(complaint);
 }
 
 class Reader {
@@ -69,7 +83,7 @@ class Reader {
         input_ = ImageInput::create(reader_name(format_), false);
         if (!input_) throw Refusal(std::string("is ") + reader_name(format_) + ", which this OpenImageIO lacks", "");
         ImageSpec opened;
-        if (!input_->open(path_, opened, config)) throw damaged(complaint());
+        if (!input_->open(path_, opened, config)) throw unreadable(complaint());
         spec_ = input_->spec();
     }
     FileFormat format_;
@@ -112,8 +126,8 @@ bool read_all_rows(Reader& reader, const SampleLayout& layout, const PixelConver
         const int rows = std::min(rows_at_once, spec.height - row);
         const bool good = reader.read(row, rows, type, samples.data());
         const std::string complaint = reader.complaint();
-        if ((!good || !complaint.empty()) && !allow_damaged) throw damaged(complaint);
-        if (!good && row == 0) throw damaged(complaint);
+        if ((!good || !complaint.empty()) && !allow_damaged) throw unreadable(complaint);
+        if (!good && row == 0) throw unreadable(complaint);
         if (!good) return false;
         const auto read = std::span(pixels).first(width * std::size_t(rows));
         converter.convert(samples.data(), read);

@@ -10,12 +10,14 @@ namespace dstylize::codec {
 
 /// Numbers of the TIFF 6.0 and EXIF tags that are used.
 enum class TiffTagId : std::uint16_t {
+    image_length = 257,
     bits_per_sample = 258,
     compression = 259,
     photometric = 262,
     description = 270,
     orientation = 274,
     samples_per_pixel = 277,
+    rows_per_strip = 278,
     x_resolution = 282,
     y_resolution = 283,
     resolution_unit = 296,

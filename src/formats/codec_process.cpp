@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -102,7 +103,7 @@ CodecProcess::CodecProcess(const std::filesystem::path& program, std::uint64_t m
     channel_ = std::move(ours);
 }
 
-CodecProcess::~CodecProcess() { reap(true); }
+CodecProcess::~CodecProcess() { end(); }
 
 CodecProcess::Outcome CodecProcess::ask(const ipc::CodecRequest& request, const ipc::Descriptor& payload,
                                         ipc::CodecAnswer& answer, ipc::Descriptor& answer_payload, double timeout_s) {
@@ -127,24 +128,31 @@ void CodecProcess::await_greeting() {
 }
 
 std::string CodecProcess::cause_of_death() {
-    // A program that closed its channel is about to end by itself: its own status tells more than our kill.
-    for (int waited_ms = 0; pid_ > 0 && waited_ms < 1000; waited_ms += 10) {
-        reap(false);
-        if (pid_ > 0) ::usleep(10'000);
-    }
-    reap(true);
+    end();
     if (WIFSIGNALED(wait_status_))
-        return "signal " + std::to_string(WTERMSIG(wait_status_)) + ", " + strsignal(WTERMSIG(wait_status_));
-    return "exit status " + std::to_string(WEXITSTATUS(wait_status_));
+        return fmt::format("signal {}, {}", WTERMSIG(wait_status_), strsignal(WTERMSIG(wait_status_)));
+    return fmt::format("exit status {}", WEXITSTATUS(wait_status_));
 }
 
-void CodecProcess::reap(bool kill_first) {
+void CodecProcess::end() {
     if (pid_ <= 0) return;
-    if (kill_first) ::kill(pid_, SIGKILL);
+    // The closed channel ends its worker, and then itself. Only while it still loads, or when it is stuck,
+    // it is killed; its worker dies with it.
+    channel_.reset();
+    constexpr int kPatience_ms = 1000;
+    for (int waited_ms = 0; waited_ms < kPatience_ms && greeted_ && !reaped(WNOHANG); ++waited_ms) ::usleep(1000);
+    if (pid_ > 0 && !reaped(WNOHANG)) {
+        ::kill(pid_, SIGKILL);
+        reaped(0);
+    }
+}
+
+bool CodecProcess::reaped(int wait_options) {
     pid_t reaped;
-    do reaped = ::waitpid(pid_, &wait_status_, kill_first ? 0 : WNOHANG);
+    do reaped = ::waitpid(pid_, &wait_status_, wait_options);
     while (reaped < 0 && errno == EINTR);
     if (reaped != 0) pid_ = -1;
+    return reaped != 0;
 }
 
 }  // namespace dstylize

@@ -18,7 +18,7 @@ class CodecProcess {
     CodecProcess(const std::filesystem::path& program, std::uint64_t max_memory_bytes);
     CodecProcess(const CodecProcess&) = delete;
     CodecProcess& operator=(const CodecProcess&) = delete;
-    /// Kills it if it still runs, and reaps it.
+    /// Ends it if it still runs, and reaps it.
     ~CodecProcess();
 
     enum class Outcome { answered, died, timed_out };
@@ -33,7 +33,8 @@ class CodecProcess {
 
   private:
     void await_greeting();
-    void reap(bool kill_first);
+    void end();
+    bool reaped(int wait_options);
 
     std::filesystem::path program_;
     ipc::Descriptor channel_;

@@ -1,5 +1,7 @@
 #include "formats/picture_codec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -22,12 +24,12 @@ struct Reply {
     ipc::Descriptor payload;
 };
 
-/// A zero-terminated text of the codec as one printable line; the codec is not trusted to have sent one.
+/// A zero-terminated text of the codec as one line of ASCII, which it is not trusted to have sent.
 template <std::size_t N>
 std::string line(const char (&text)[N]) {
     std::string s(text, strnlen(text, N));
     std::replace_if(
-        s.begin(), s.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+        s.begin(), s.end(), [](char c) { return c < 0x20 || c > 0x7e; }, '?');
     return s;
 }
 
@@ -39,40 +41,42 @@ std::span<const std::byte> bytes_of(const Picture& picture) {
 }
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
+std::string crash_text(bool reading, const std::string& how) {
+    return fmt::format("the {} crashed{} ({})", reading ? "decoder" : "encoder", reading ? " on it" : "", how);
+}
+
 /// Sends one request to the process, starting it when there is none. Errors about the picture are of
-/// `code` and name `file`; the process is renewed whenever it may not be trusted any more.
+/// `code` and name `file`; the process is renewed when it is gone or stuck.
 Reply reply(const CodecOptions& options, std::unique_ptr<CodecProcess>& process, const ipc::CodecRequest& request,
             const ipc::Descriptor& payload, ErrorCode code, const std::string& file) {
+    const bool reading = code == ErrorCode::cannot_read;
+    const std::string remedy = reading ? "the file is damaged or hostile; export it again" : "try another format";
     const auto renew = [&] {
         process.reset();
         process = std::make_unique<CodecProcess>(options.program, options.max_memory_bytes);
     };
     if (!process) renew();
     Reply reply;
-    std::string death;
     using Outcome = CodecProcess::Outcome;
     switch (process->ask(request, payload, reply.answer, reply.payload, options.timeout_s)) {
         case Outcome::answered: break;
-        case Outcome::died: death = process->cause_of_death(); break;
-        case Outcome::timed_out: {
+        case Outcome::died: {
+            const std::string how = process->cause_of_death();
             renew();
-            const std::string limit = std::to_string(std::lround(options.timeout_s)) + " s";
-            throw Error(code, file,
-                        code == ErrorCode::cannot_read ? "decoding took longer than " + limit
-                                                       : "encoding took longer than " + limit,
-                        "the file may be damaged; allow more time for a very large one");
+            throw Error(code, file, crash_text(reading, how), remedy);
         }
+        case Outcome::timed_out:
+            renew();
+            throw Error(code, file,
+                        fmt::format("{} took longer than {} s", reading ? "decoding" : "encoding", options.timeout_s),
+                        "the file may be damaged; allow more time for a very large one");
     }
-    if (!death.empty()) {
-        renew();
-        const bool reading = code == ErrorCode::cannot_read;
-        throw Error(code, file, (reading ? "the decoder crashed on it (" : "the encoder crashed (") + death + ")",
-                    reading ? "the file is damaged or hostile; export it again" : "try another format");
+    switch (reply.answer.status) {
+        case ipc::CodecStatus::done: return reply;
+        case ipc::CodecStatus::crashed:
+            throw Error(code, file, crash_text(reading, line(reply.answer.problem)), remedy);
+        default: throw Error(code, file, line(reply.answer.problem), line(reply.answer.remedy));
     }
-    if (reply.answer.retires) renew();
-    if (reply.answer.status != ipc::CodecStatus::done)
-        throw Error(code, file, line(reply.answer.problem), line(reply.answer.remedy));
-    return reply;
 }
 
 [[noreturn]] void implausible(std::unique_ptr<CodecProcess>& process, ErrorCode code, const std::string& file) {

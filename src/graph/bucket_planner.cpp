@@ -164,8 +164,10 @@ Plan plan_with(const PlanRequest& request, const Work& work) {
         case Metric::max_sum: return search<Edges>(request, work, MaxSumKeys{}, range);
         case Metric::blend: return search<Edges>(request, work, BlendKeys{request.blend_factor}, range);
         case Metric::lexicographic:
-            if constexpr (kSteps == kListed) return reference_planner().plan(request, work);
-            else return SpanningTree<kSteps, Edges>(request, range.largest_height).run(work);
+            if constexpr (kSteps == kListed)
+                return reference_planner().plan(request, work);
+            else
+                return SpanningTree<kSteps, Edges>(request, range.largest_height).run(work);
     }
     return {};
 }

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "imaging/filters.h"
 #include "importance/detail_field_functions.h"
 #include "importance/fractal_noise.h"
-#include "imaging/filters.h"
 
 namespace dstylize {
 
@@ -77,7 +77,8 @@ Grid<float> guided(Fields& fields) {
     const Extent e = fields.extent();
     for (int i = 0; i < e.x; ++i) {
         const float x = (float(i) + 0.5f) / float(e.x);
-        const float leads = p.free_side > 0 ? smoothstep(p.free_side - p.free_ramp / 2, p.free_side + p.free_ramp / 2, x) : 1;
+        const float leads =
+            p.free_side > 0 ? smoothstep(p.free_side - p.free_ramp / 2, p.free_side + p.free_ramp / 2, x) : 1;
         for (int j = 0; j < e.y; ++j) out(i, j) = likeness * leads * smoothstep(0, 0.6f, out(i, j));
     }
     return out;

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
 #include "imaging/filters.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
 namespace {
@@ -126,8 +126,8 @@ Grid<float> border(Fields& fields) {
     Grid<float> out(e);
     for (int j = 0; j < e.y; ++j)
         for (int i = 0; i < e.x; ++i)
-            out(i, j) = 1 - smoothstep(inner, std::max(outer, inner + 1),
-                                       float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
+            out(i, j) =
+                1 - smoothstep(inner, std::max(outer, inner + 1), float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
     return out;
 }
 

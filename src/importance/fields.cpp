@@ -79,8 +79,8 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"features_surround", "u", "size of the surroundings that suppress textures"}, features_surround, 2, 100);
     v.number({"features_suppress", "", "how much busy surroundings suppress a feature"}, features_suppress, 0, 1);
     v.number({"avoid_scale", "u", "size of the bright details to keep clean"}, avoid_scale, 1, 60);
-    v.number({"avoid_level", "", "how much brighter than around a detail must be; lower keeps more clean"},
-             avoid_level, 0.3f, 1);
+    v.number({"avoid_level", "", "how much brighter than around a detail must be; lower keeps more clean"}, avoid_level,
+             0.3f, 1);
     v.number({"border_width", "u", "how far inside the frame growth is discouraged"}, border_width, 1, 100);
     v.number({"smooth_noise_scale", "u", "correlation length of the smooth noise"}, smooth_noise_scale, 0.5f, 60);
     v.number({"flow_fine", "u", "window of the fine structure tensor"}, flow_fine, 1, 60);

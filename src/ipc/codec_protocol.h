@@ -5,10 +5,10 @@
 #include <vector>
 
 // What the library and the program dstylize-codec say to each other over one channel: the codec greets
-// once; then each Request, which passes the memory that holds its payload, is followed by one Answer,
-// which passes the memory that holds its own. Both are built from the same sources and run on one
-// machine, so plain structs serve. The codec reads hostile files: the library believes no number in an
-// Answer that it has not checked.
+// once when it has loaded; then each Request, which passes the memory that holds its payload, is followed by one
+// Answer, which passes the memory that holds its own. Both are built from the same sources and run on one machine, so
+// plain structs serve. The codec reads hostile files: the library believes no number in an Answer that it has not
+// checked.
 namespace dstylize::ipc {
 
 /// The channel's number in the codec, and how it is started: dstylize-codec MAX_MEMORY_BYTES.
@@ -39,19 +39,21 @@ struct CodecRequest {
     EncodeSettings encode;
 };
 
-enum class CodecStatus : std::uint32_t { done, refused };
+enum class CodecStatus : std::uint32_t {
+    done,
+    refused,  ///< problem and remedy say why
+    crashed,  ///< while it worked on the request; problem says how
+};
 
 struct CodecAnswer {
     CodecStatus status = CodecStatus::refused;
-    /// 1: the codec ends after this answer, because a file that fails to decode may have harmed its heap.
-    std::uint32_t retires = 0;
     /// decode: width * height pixels of 4 bytes. encode: the file.
     std::uint64_t payload_bytes = 0;
     std::uint64_t text_bytes = 0;
     std::int32_t width = 0, height = 0;
     std::uint32_t has_alpha = 0;
     double dpi = 0;
-    /// When refused: what is wrong, and what to do about it. Zero-terminated.
+    /// Zero-terminated.
     char problem[400] = {}, remedy[200] = {};
 };
 

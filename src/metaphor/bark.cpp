@@ -51,7 +51,8 @@ class Painter {
         out.stage = limb.stage;
         out.colour = mixed(p_.shade, p_.lit, std::pow(inner, 0.8f));
         for (std::size_t k = 0; k < limb.points_px.size(); ++k) {
-            const float width = limb.width_px[k], shaded = smoothstep(0.6f * p_.round_from, 1.6f * p_.round_from, width / u_);
+            const float width = limb.width_px[k],
+                        shaded = smoothstep(0.6f * p_.round_from, 1.6f * p_.round_from, width / u_);
             if (shaded <= 0) {
                 if (out.points_px.size() > 1) layer.items.emplace_back(out);
                 out.points_px.clear();
@@ -135,7 +136,8 @@ Layer bark_layer(const Subject& subject, const BarkParameters& parameters) {
         widest[s] = *std::max_element(strokes[s].width_px.begin(), strokes[s].width_px.end());
     std::vector<std::uint32_t> order(strokes.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return widest[a] < widest[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return widest[a] < widest[b]; });
     Layer layer{"branches", Blend::over, {}};
     layer.items.reserve(strokes.size());
     Painter painter(subject, parameters);

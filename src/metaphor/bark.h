@@ -7,11 +7,11 @@ namespace dstylize {
 struct BarkParameters {
     Rgba lit{0x80 / 255.0f, 0x66 / 255.0f, 0x4e / 255.0f, 1};
     Rgba shade{0x1c / 255.0f, 0x15 / 255.0f, 0x13 / 255.0f, 1};
-    float light_deg = 222;    ///< where light comes from: 0 right, 90 below, 180 left, 270 above
-    float round_from = 1.8f;  ///< limbs wider than this are shaded
-    float furrows = 0.6f;     ///< opacity of the furrows
-    float furrow_from = 5;    ///< limbs wider than this have some
-    float twig_shade = 0.72f; ///< how dark the thinnest twigs are: 0 lit, 1 shade
+    float light_deg = 222;     ///< where light comes from: 0 right, 90 below, 180 left, 270 above
+    float round_from = 1.8f;   ///< limbs wider than this are shaded
+    float furrows = 0.6f;      ///< opacity of the furrows
+    float furrow_from = 5;     ///< limbs wider than this have some
+    float twig_shade = 0.72f;  ///< how dark the thinnest twigs are: 0 lit, 1 shade
 
     void visit(ParameterVisitor& visitor);
 };

@@ -10,7 +10,7 @@ class Ink final : public Metaphor {
     DisplayList draw(const Subject& subject) const override { return ink_on_paper(subject, ink_); }
 
   private:
-    InkParameters ink_{{0.06f, 0.06f, 0.07f, 1}, {1, 1, 1, 1}, 0};
+    InkParameters ink_{{0x0f / 255.0f, 0x0f / 255.0f, 0x12 / 255.0f, 1}, {1, 1, 1, 1}, 0};
 };
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace dstylize {
 
 /// What a metaphor may look at. It changes nothing.
 struct Subject {
-    float width_px = 0, height_px = 0;  ///< the picture frame
-    float u_px = 1;                     ///< 1/1024 of its long side
-    float px_per_node = 1;              ///< scale of the fields
+    float width_px = 0, height_px = 0;        ///< the picture frame
+    float u_px = 1;                           ///< 1/1024 of its long side
+    float px_per_node = 1;                    ///< scale of the fields
     std::span<const VariableStroke> strokes;  ///< centrelines and widths; parents before children
     /// A field of the picture by name, on the lattice.
     std::function<const Grid<float>&(std::string_view)> field;

@@ -33,7 +33,9 @@ class Tree final : public Metaphor {
         std::uint64_t draw = 0;
         for (const VariableStroke& stroke : subject.strokes) {
             const std::size_t last = stroke.points_px.size() - 1;
-            if (stroke.order != 0 || last == 0 || stroke.points_px[std::min<std::size_t>(last, 8)].y > stroke.points_px[0].y) continue;
+            if (stroke.order != 0 || last == 0 ||
+                stroke.points_px[std::min<std::size_t>(last, 8)].y > stroke.points_px[0].y)
+                continue;
             const float foot = std::max(8 * u, stroke.width_px[0]);
             const int blades = int(grass_ * 5 * foot / u);
             for (int k = 0; k < blades; ++k) {

@@ -27,7 +27,8 @@ Grid<std::uint8_t> allowed(const Fields& fields, const EndpointParameters& p, co
 }
 
 Grid<float> endpoint_density(Fields& fields, const EndpointParameters& p) {
-    Grid<float> density = p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
+    Grid<float> density =
+        p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
     transform(density, [&](float v) {
         const float toe = p.density_toe > 0 ? smoothstep(-0.5f * p.density_toe, p.density_toe, v) : 1;
         return std::pow(std::clamp(v, 0.0f, 1.0f), p.density_exponent) * toe;
@@ -73,7 +74,8 @@ std::vector<NodeId> stipples(Fields& fields, const EndpointParameters& p, const 
     const float least = std::min(1.0f, p.dense_spacing / p.calm_spacing);
     transform(expense, [&](float v) { return least + (1 - least) * v; });
     const Grid<std::uint8_t> open = allowed(fields, p, view);
-    return graph_distance_stipples({expense, std::max(0.01f, p.dense_spacing * fields.u()), view.drawn.node, open}, work);
+    return graph_distance_stipples({expense, std::max(0.01f, p.dense_spacing * fields.u()), view.drawn.node, open},
+                                   work);
 }
 
 /// One endpoint straight above every root, as far up as can be grown without a gap.

@@ -74,8 +74,10 @@ WeightedLattice weights(Fields& fields, const Prepared& base, const Round& round
         DirectionalCost directional;
         if (stage.along_flow > 0) directional.flow = fields.flow();
         directional.strength = stage.along_flow;
-        if (scattered) directional.pull = pull;
-        else if (length(pull) > 0) directional.step_factor = pull_factors(graph.lattice, pull);
+        if (scattered)
+            directional.pull = pull;
+        else if (length(pull) > 0)
+            directional.step_factor = pull_factors(graph.lattice, pull);
         build_height_planes(graph, directional, work);
     }
     return graph;
@@ -87,8 +89,8 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
     const Extent e = graph.lattice.extent();
     for (const EndpointRow& row : controls.endpoints) {
         if (row.stage.empty() ? !first : row.stage != stage.name) continue;
-        const NodeId node = graph.lattice.nearest({float(row.x.px(picture_px.x) / picture_px.x * e.x),
-                                                   float(row.y.px(picture_px.y) / picture_px.y * e.y)});
+        const NodeId node = graph.lattice.nearest(
+            {float(row.x.px(picture_px.x) / picture_px.x * e.x), float(row.y.px(picture_px.y) / picture_px.y * e.y)});
         if (graph.passable(node)) out.push_back(node);
     }
     return out;
@@ -101,7 +103,8 @@ double mean_cost_per_step(const WeightedLattice& graph, const Dendrite& drawn) {
     return drawn.size() ? kHeightPerWeight * kStraightLength * sum / double(drawn.size()) : 0;
 }
 
-std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& graph, const StageParameters& stage, float u) {
+std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& graph, const StageParameters& stage,
+                                  float u) {
     if (stage.sources == StageParameters::Sources::dendrite) {
         const bool remembers = stage.metric == Metric::sum || stage.metric == Metric::blend;
         return growth.sources(remembers ? stage.carry : 0, mean_cost_per_step(graph, growth.dendrite()),
@@ -195,14 +198,15 @@ Grown grow(Prepared& base, const Style& style, const Controls& controls, Extent 
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
                     growth.add_root(node, owner++);
             }
-            const std::vector<NodeId> endpoints =
-                given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
-                      : placed_endpoints(fields, stage.endpoints,
-                                         {base.passable, graph, growth.dendrite(), std::uint32_t(s), batch, stage.batches},
-                                         controls.seed, work);
+            const std::vector<NodeId> endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
+                                                        : placed_endpoints(fields, stage.endpoints,
+                                                                           {base.passable, graph, growth.dendrite(),
+                                                                            std::uint32_t(s), batch, stage.batches},
+                                                                           controls.seed, work);
             work.report(stage.name + ": paths", (0.4 + done) / (stages + 1));
             const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
-            const Plan plan = bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+            const Plan plan =
+                bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
             if (observer) observer({stage, graph, plan, endpoints});
             out.endpoints.back() += endpoints.size();
             out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),

@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 bool same_file(const fs::path& a, const fs::path& b) {
     std::error_code ignored;
     if (a == "-" || b == "-" || a.empty() || b.empty()) return false;
-    return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    return fs::equivalent(a, b, ignored) || fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
+                                                fs::weakly_canonical(fs::absolute(b, ignored), ignored);
 }
 
 const OutputFormat& format_of(const fs::path& path, const std::string& format_name) {

@@ -3,21 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/scattered_lattice.h"
 #include "imaging/filters.h"
 #include "importance/frame.h"
-#include "graph/scattered_lattice.h"
 #include "pipeline/stylize.h"
 
 namespace dstylize {
 namespace {
 
-Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls, Extent lattice) {
+Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
+                                  Extent lattice) {
     constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
     Grid<float> mask;
     if (controls.mask) mask = resized(luma_plane(*controls.mask), lattice);
     const int short_side = std::min(lattice.x, lattice.y);
-    const int margin = int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
+    const int margin =
+        int(std::min(style.lattice.margin * float(lattice.long_side()) / 1024, kMostMargin * float(short_side)));
     Grid<std::uint8_t> out(lattice);
     for (int j = margin; j < lattice.y - margin; ++j)
         for (int i = margin; i < lattice.x - margin; ++i)
@@ -35,11 +37,13 @@ Grid<float> placed(const Grid<float>& plane, Extent lattice, const LatticeParame
     Grid<float> out(lattice);
     for (int j = 0; j < lattice.y; ++j)
         for (int i = 0; i < lattice.x; ++i)
-            out(i, j) = inner(std::clamp(i - left, 0, inner.extent().x - 1), std::clamp(j - top, 0, inner.extent().y - 1));
+            out(i, j) =
+                inner(std::clamp(i - left, 0, inner.extent().x - 1), std::clamp(j - top, 0, inner.extent().y - 1));
     return out;
 }
 
-Lattice laid_lattice(const Grid<std::uint8_t>& passable, const LatticeParameters& p, std::uint64_t seed, const Work& work) {
+Lattice laid_lattice(const Grid<std::uint8_t>& passable, const LatticeParameters& p, std::uint64_t seed,
+                     const Work& work) {
     if (p.kind == LatticeParameters::Kind::regular) return Lattice(passable.extent(), p.neighbourhood);
     return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), work);
 }

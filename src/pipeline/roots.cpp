@@ -52,7 +52,8 @@ class PlaceScore {
           u_(fields.u()),
           inset_(parameters.inset * u_),
           centring_(parameters.centring),
-          interest_(blurred(fields[place == Place::darkest ? "darkness" : "importance"], (place == Place::darkest ? 6 : 3) * u_)) {}
+          interest_(blurred(fields[place == Place::darkest ? "darkness" : "importance"],
+                            (place == Place::darkest ? 6 : 3) * u_)) {}
 
     float operator()(const Box& box, int i, int j) const {
         constexpr float kBand_u = 3;
@@ -61,8 +62,9 @@ class PlaceScore {
         const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
         const float interest = interest_(i, j);
         if (place_ == Place::darkest) return interest;
-        if (place_ == Place::centre) return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9
-                                                ? interest - 0.1f * (x * x + y * y) : kNever;
+        if (place_ == Place::centre)
+            return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9 ? interest - 0.1f * (x * x + y * y)
+                                                                                    : kNever;
         const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
         const float wanted = std::min(inset_, height / 4);
         if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
@@ -177,7 +179,8 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
             // The margin at the frame is ours, not the user's: a root there moves just inside.
             const NodeId at = passable_near(graph, chosen_node(graph, choice, picture_px), kMoveAtMost_u * fields.u());
             if (at == kNoNode)
-                throw Error(ErrorCode::bad_usage, "", fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),
+                throw Error(ErrorCode::bad_usage, "",
+                            fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),
                             "move it into the white part of the mask");
             starts.push_back(at);
         }

@@ -41,7 +41,8 @@ Picture field_picture(const Grid<float>& field) {
 Picture flow_picture(const FlowField& flow) {
     Picture out(flow.extent());
     for (std::size_t n = 0; n < flow.size(); ++n) {
-        const float turn = std::atan2(flow[n].y, flow[n].x) / 3.14159265f + 1;  // a direction, not a vector: half a turn
+        const float turn =
+            std::atan2(flow[n].y, flow[n].x) / 3.14159265f + 1;  // a direction, not a vector: half a turn
         out[n] = hue(std::fmod(turn, 1.0f), 0.25f + 0.75f * length(flow[n]));
     }
     return out;
@@ -145,7 +146,8 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     if (name == "flow") return flow_picture(base.fields.flow());
     const std::string view = name.substr(0, name.find(':'));
     const std::string stage_name = view == name ? style.stages.back().name : name.substr(view.size() + 1);
-    if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end()) return field_picture(base.fields[name]);
+    if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end())
+        return field_picture(base.fields[name]);
 
     std::optional<Picture> out;
     const auto observe = [&](const StageView& stage) {

@@ -7,7 +7,8 @@ namespace dstylize {
 void LatticeParameters::visit(ParameterVisitor& v) {
     static constexpr std::array<std::string_view, 3> kNeighbourhoods{"4", "8", "16"};
     static constexpr std::array<std::string_view, 2> kKinds{"regular", "scattered"};
-    choice(v, {"kind", "", "a square lattice, or scattered nodes joined to their 12 nearest: no straight runs"}, kind, kKinds);
+    choice(v, {"kind", "", "a square lattice, or scattered nodes joined to their 12 nearest: no straight runs"}, kind,
+           kKinds);
     v.integer({"detail", "nodes", "lattice nodes on the picture's long side"}, detail, 16, 16384);
     choice(v, {"neighbours", "", "regular: steps a path can take from a node; 16 takes staircases out of long lines"},
            neighbourhood, kNeighbourhoods);
@@ -38,9 +39,11 @@ void EndpointParameters::visit(ParameterVisitor& v) {
     v.number({"calm_spacing", "u", "distance between endpoints at density 0"}, calm_spacing, 0.5f, 500);
     v.number({"dense_spacing", "u", "distance between endpoints at density 1"}, dense_spacing, 0.5f, 500);
     v.number({"keep_off", "", "discs: share of the spacing kept from what is drawn already"}, keep_off, 0, 2);
-    v.number({"first_spacing", "", "discs: spacings of the first batch, as a multiple of the last batch's"}, first_spacing, 1, 20);
+    v.number({"first_spacing", "", "discs: spacings of the first batch, as a multiple of the last batch's"},
+             first_spacing, 1, 20);
     v.integer({"most", "", "discs: at most so many a batch, 0 for any number"}, most, 0, 1000000);
-    v.number({"within", "edges", "only so near to the structure, counted in edges of 1024 nodes; 0: anywhere"}, within, 0, 1000);
+    v.number({"within", "edges", "only so near to the structure, counted in edges of 1024 nodes; 0: anywhere"}, within,
+             0, 1000);
     v.number({"reach", "u", "above: how far above the root"}, reach, 1, 2000);
 }
 
@@ -60,9 +63,11 @@ void StageParameters::visit(ParameterVisitor& v) {
              along_flow, 0, 20);
     v.number({"down", "", "how much dearer it is to grow upwards than downwards"}, down, 0, 20);
     v.number({"up", "", "how much dearer it is to grow downwards than upwards"}, up, 0, 20);
-    v.number({"wind", "", "how much dearer it is to grow to the left than to the right; negative: the reverse"}, wind, -20, 20);
+    v.number({"wind", "", "how much dearer it is to grow to the left than to the right; negative: the reverse"}, wind,
+             -20, 20);
     v.number({"noise_white", "", "weight of independent noise, another in every batch"}, noise_white, 0, 10);
-    v.number({"noise_smooth", "", "weight of smooth noise, another in every batch: bends branches"}, noise_smooth, 0, 10);
+    v.number({"noise_smooth", "", "weight of smooth noise, another in every batch: bends branches"}, noise_smooth, 0,
+             10);
     v.number({"noise_scale", "u", "wavelength of the smooth noise"}, noise_scale, 2, 400);
     v.number({"bare", "u", "way from the root on which starting a branch costs more"}, bare, 0, 2000);
     v.integer({"batches", "", "rounds of growth, each seeing what the ones before have drawn"}, batches, 1, 64);

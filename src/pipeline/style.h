@@ -18,7 +18,7 @@ struct LatticeParameters {
     Kind kind = Kind::regular;
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
-    float margin = 5;  ///< u: nothing grows this near to the frame
+    float margin = 5;                                             ///< u: nothing grows this near to the frame
     float picture_scale = 1, picture_x = 0.5f, picture_y = 0.5f;  ///< the picture inside the frame
 
     void visit(ParameterVisitor& visitor);
@@ -29,7 +29,7 @@ struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
     float centring = 0.35f;  ///< how much a place in the middle counts against an important one
-    float inset = 16;  ///< u: distance from the frame of `bottom` and `top`
+    float inset = 16;        ///< u: distance from the frame of `bottom` and `top`
 
     void visit(ParameterVisitor& visitor);
 };
@@ -43,7 +43,7 @@ struct EndpointParameters {
     std::string priority = "density";  ///< discs: field, highest first
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
-    float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
+    float keep_off = 0;       ///< discs: share of the spacing to keep from what is drawn already
     float first_spacing = 1;  ///< the first batch's spacings as a multiple of the last's
     int most = 0;             ///< at most so many in the first batch, the later ones as spacings allow; 0: any number
     float within = 0;         ///< edges (at 1024 nodes) from the structure; 0: anywhere

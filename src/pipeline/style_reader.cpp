@@ -30,13 +30,16 @@ struct Reader final : ParameterVisitor {
 
     [[noreturn]] void fail(const toml::source_region& at, const std::string& problem, const std::string& remedy) const {
         std::string where = origin;
-        if (at.begin.line > 0) where = fmt::format("{}:{}:{}", at.path ? *at.path : origin, at.begin.line, at.begin.column);
+        if (at.begin.line > 0)
+            where = fmt::format("{}:{}:{}", at.path ? *at.path : origin, at.begin.line, at.begin.column);
         throw Error(ErrorCode::bad_usage, where, problem, remedy);
     }
     [[noreturn]] void fail(const toml::node* node, const std::string& problem, const std::string& remedy) const {
         fail(node ? node->source() : toml::source_region{}, problem, remedy);
     }
-    std::string full(std::string_view key) const { return path.empty() ? std::string(key) : path + "." + std::string(key); }
+    std::string full(std::string_view key) const {
+        return path.empty() ? std::string(key) : path + "." + std::string(key);
+    }
     toml::node* find(std::string_view key) {
         known.emplace_back(key);
         return table.get(key);
@@ -58,7 +61,8 @@ struct Reader final : ParameterVisitor {
         const auto given = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
         const std::string range = fmt::format("give a whole number from {} to {}", lo, hi);
         if (!given) fail(node, full(doc.key) + " is not a whole number", range);
-        if (*given < lo || *given > hi) fail(node, fmt::format("{} = {} is out of range", full(doc.key), *given), range);
+        if (*given < lo || *given > hi)
+            fail(node, fmt::format("{} = {} is out of range", full(doc.key), *given), range);
         value = int(*given);
     }
     void flag(ParameterDoc doc, bool& value) override {
@@ -99,7 +103,8 @@ struct Reader final : ParameterVisitor {
     void field_weights(ParameterDoc doc, FieldWeights& value) override {
         toml::node* node = find(doc.key);
         if (!node) return;
-        if (!node->is_table()) fail(node, full(doc.key) + " is not a table of field weights", "write { field = weight }");
+        if (!node->is_table())
+            fail(node, full(doc.key) + " is not a table of field weights", "write { field = weight }");
         const auto names = Fields::names();
         value.clear();
         for (auto&& [key, weight] : *node->as_table()) {
@@ -109,7 +114,8 @@ struct Reader final : ParameterVisitor {
                      "did you mean '" + nearest_name(field, {names.begin(), names.end()}) + "'?");
             const auto given = weight.value<double>();
             if (!given || !(std::abs(*given) <= 100))
-                fail(&weight, fmt::format("{}.{} is not a weight", full(doc.key), field), "give a number from -100 to 100");
+                fail(&weight, fmt::format("{}.{} is not a weight", full(doc.key), field),
+                     "give a number from -100 to 100");
             value.emplace_back(field, float(*given));
         }
     }
@@ -166,8 +172,10 @@ void merge(toml::table& base, toml::table&& over) {
         if (key == "stage" && below && below->is_array() && node.is_array()) {
             for (toml::node& stage : *node.as_array()) {
                 toml::table* same = find_stage(base, stage_name(stage));
-                if (same && stage.is_table()) merge(*same, std::move(*stage.as_table()));
-                else stage.visit([&](auto& value) { below->as_array()->push_back(std::move(value)); });
+                if (same && stage.is_table())
+                    merge(*same, std::move(*stage.as_table()));
+                else
+                    stage.visit([&](auto& value) { below->as_array()->push_back(std::move(value)); });
             }
         } else if (below && below->is_table() && node.is_table()) {
             merge(*below->as_table(), std::move(*node.as_table()));
@@ -205,7 +213,8 @@ toml::table resolved(toml::table own, const std::string& origin, int depth) {
     const std::string base_name = own["style"]["extends"].value_or(std::string());
     if (base_name.empty()) return own;
     if (depth >= kMostExtends)
-        throw Error(ErrorCode::bad_usage, origin, "styles extend one another in a circle", "break the chain of `extends`");
+        throw Error(ErrorCode::bad_usage, origin, "styles extend one another in a circle",
+                    "break the chain of `extends`");
     std::string base_origin;
     const std::string text = style_text(base_name, base_origin);
     toml::table tree = resolved(parsed(text, base_origin), base_origin, depth + 1);
@@ -238,7 +247,8 @@ void apply(toml::table& tree, const Setting& setting) {
         toml::node* inner = at->get(path[k]);
         if (!inner) inner = &at->insert(path[k], toml::table{}).first->second;
         at = inner->as_table();
-        if (!at) throw Error(ErrorCode::bad_usage, origin, "'" + path[k] + "' is not a table", "write section.key=value");
+        if (!at)
+            throw Error(ErrorCode::bad_usage, origin, "'" + path[k] + "' is not a table", "write section.key=value");
     }
     try {
         toml::table value = toml::parse("v = " + setting.value, origin);
@@ -286,7 +296,8 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
         v.text({"extends", "", ""}, extends);
         v.text({"metaphor", "", ""}, style.metaphor_name);
     });
-    if (style.metaphor_name.empty()) top.fail(tree.get("style"), "the style names no metaphor", "add style.metaphor = \"ink\"");
+    if (style.metaphor_name.empty())
+        top.fail(tree.get("style"), "the style names no metaphor", "add style.metaphor = \"ink\"");
     style.metaphor = make_metaphor(style.metaphor_name);
     if (toml::node* stages = top.find("stage")) {
         if (!stages->is_array()) top.fail(stages, "'stage' is not a list of stages", "write [[stage]]");
@@ -297,9 +308,11 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
             StageParameters stage;
             stage.visit(reader);
             reader.reject_unknown();
-            if (!names.insert(stage.name).second) top.fail(&node, "two stages are called '" + stage.name + "'", "rename one");
+            if (!names.insert(stage.name).second)
+                top.fail(&node, "two stages are called '" + stage.name + "'", "rename one");
             for (const std::string& field : {stage.endpoints.density, stage.endpoints.priority, stage.path_inside})
-                if (const auto all = Fields::names(); !field.empty() && std::find(all.begin(), all.end(), field) == all.end())
+                if (const auto all = Fields::names();
+                    !field.empty() && std::find(all.begin(), all.end(), field) == all.end())
                     top.fail(&node, "no field is called '" + field + "'",
                              "did you mean '" + nearest_name(field, {all.begin(), all.end()}) + "'?");
             style.stages.push_back(std::move(stage));

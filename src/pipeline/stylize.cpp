@@ -24,8 +24,8 @@ Frame frame(Extent lattice, Extent picture) {
     return {x, y, lattice.x >= lattice.y ? x : y};
 }
 
-std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite,
-                                    const Branching& b, const std::vector<float>& widths, const Frame& to) {
+std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite, const Branching& b,
+                                    const std::vector<float>& widths, const Frame& to) {
     constexpr float kHiddenInParent = 0.9f;
     std::vector<VariableStroke> out(lines.size());
     for (std::size_t s = 0; s < lines.size(); ++s) {
@@ -34,7 +34,8 @@ std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const 
         stroke.order = branch.order;
         stroke.stage = dendrite.stage[branch.nodes.back()];
         for (const Vec2f p : lines[s].points_lattice) stroke.points_px.push_back(to.px(p));
-        const float first = widths[branch.nodes[0]], second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
+        const float first = widths[branch.nodes[0]],
+                    second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
         const bool joins = branch.parent_branch != Branch::kNone;
         const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
         stroke.width_px.assign(lines[s].lead, at_joint * to.width_scale);
@@ -56,7 +57,8 @@ Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattic
     list.layers.push_back(std::move(layer));
     const Picture black_on_white = raster(list, {lattice}, work);
     Grid<float> out(lattice);
-    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(), [](Rgba8 p) { return 1 - float(p.r) / 255; });
+    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(),
+                   [](Rgba8 p) { return 1 - float(p.r) / 255; });
     return out;
 }
 
@@ -67,7 +69,8 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
     const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
     for (int pass = 0; pass < passes; ++pass) {
         work.check();
-        const Grid<float> ink = drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
+        const Grid<float> ink =
+            drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
         widths.correct(target, blurred(ink, kDrawnWindow_u * u));
     }
 }
@@ -90,7 +93,8 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const Branching b = branching(out.dendrite);
     smooth(out.dendrite, b, int(std::lround(style.stroke.smooth * u * u)));
     const std::vector<Centreline> lines = centrelines(out.dendrite, b, int(style.stroke.junction * u));
-    Widths widths(out.dendrite, b, style.width, {fields["wanted"], fields["lines"], fields["importance"], fields["guided"]}, u);
+    Widths widths(out.dendrite, b, style.width,
+                  {fields["wanted"], fields["lines"], fields["importance"], fields["guided"]}, u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, lines, out.dendrite, b, u, work);
 
     work.report("drawing", 0.85);
@@ -99,8 +103,8 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     out.strokes = drawn.size();
     out.width_u = widths.widths();
     for (float& w : out.width_u) w /= u;
-    out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale, drawn,
-                                     [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
+    out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
+                                     drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
                                      controls.seed});
     return out;
 }

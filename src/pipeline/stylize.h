@@ -12,12 +12,12 @@ namespace dstylize {
 /// A finished drawing, independent of any output's size, and what it was drawn from.
 struct Drawing {
     DisplayList list;
-    Dendrite dendrite;                     ///< smoothed positions
-    std::vector<float> width_u;            ///< per node of the dendrite, in u
-    Extent lattice, picture;               ///< nodes; pixels of the upright input
+    Dendrite dendrite;           ///< smoothed positions
+    std::vector<float> width_u;  ///< per node of the dendrite, in u
+    Extent lattice, picture;     ///< nodes; pixels of the upright input
     std::vector<std::string> stage_names;
-    std::vector<std::size_t> endpoints;    ///< placed, per stage
-    std::size_t unreached = 0;             ///< endpoints without a path
+    std::vector<std::size_t> endpoints;  ///< placed, per stage
+    std::size_t unreached = 0;           ///< endpoints without a path
     std::size_t strokes = 0;
 };
 

@@ -30,7 +30,8 @@ std::vector<float> pipe_widths(const Dendrite& d, const Branching& b, const Pipe
         if (const float room = p.widest - p.slender; width > p.slender && room > 0)
             width = p.slender + room * (1 - std::exp(-(width - p.slender) / room));
         const float up = way[v] / u;
-        width *= 1 + p.flare * (0.72f * std::exp(-up / p.flare_length) + 0.28f * std::exp(-up / (3.2f * p.flare_length)));
+        width *=
+            1 + p.flare * (0.72f * std::exp(-up / p.flare_length) + 0.28f * std::exp(-up / (3.2f * p.flare_length)));
         out[v] = width * u;
     }
     return out;
@@ -47,8 +48,7 @@ Grid<float> ink_coverage(const Dendrite& d, const std::vector<float>& widths, Ex
         const Vec2f middle = lerp(from, to, 0.5f), across = normalized(perpendicular(to - from));
         const int lanes = std::max(1, int(widths[v] + 0.5f));
         const float amount = distance(from, to) * widths[v] / float(lanes);
-        for (int k = 0; k < lanes; ++k)
-            add(middle + across * (float(k) - 0.5f * float(lanes - 1)), amount);
+        for (int k = 0; k < lanes; ++k) add(middle + across * (float(k) - 0.5f * float(lanes - 1)), amount);
     }
     ink = blurred(ink, sigma);
     transform(ink, [](float v) { return 1 - std::exp(-v); });

@@ -8,8 +8,10 @@ void StrokeParameters::visit(ParameterVisitor& v) {
     v.number({"smooth", "", "smoothing passes over the tree at 1024 nodes; 0 leaves the lattice's steps"}, smooth, 0,
              200);
     v.number({"junction", "u", "how far a branch runs along its parent before it leaves"}, junction, 0, 40);
-    v.number({"drop_spurs", "u", "side branches shorter than this are dropped where the tone is dark"}, drop_spurs, 0, 100);
-    v.number({"drop_spurs_light", "u", "the same where the tone is light: thorns on contours"}, drop_spurs_light, 0, 100);
+    v.number({"drop_spurs", "u", "side branches shorter than this are dropped where the tone is dark"}, drop_spurs, 0,
+             100);
+    v.number({"drop_spurs_light", "u", "the same where the tone is light: thorns on contours"}, drop_spurs_light, 0,
+             100);
 }
 
 void smooth(Dendrite& d, const Branching& b, int passes) {

@@ -49,7 +49,8 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"tip", "u", "length over which a tip runs out"}, tip, 0, 200);
     v.number({"tip_width", "u", "width at the very tip"}, tip_width, 0, 10);
     v.number({"swing", "", "how much wider twigs are where ink is wanted, and thinner where not"}, swing, 0, 1);
-    v.number({"wanted_gain", "", "the field `lacking` counts the wanted ink so often, as strokes overlap"}, wanted_gain, 0.1f, 4);
+    v.number({"wanted_gain", "", "the field `lacking` counts the wanted ink so often, as strokes overlap"}, wanted_gain,
+             0.1f, 4);
     v.section("pipe", "the pipe rule", [this](ParameterVisitor& inner) { pipe.visit(inner); });
 }
 
@@ -60,8 +61,8 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
     constexpr float kMostInk = 0.92f;
     target_ink_ = blurred(fields.tone, u);
     for (std::size_t n = 0; n < target_ink_.size(); ++n)
-        target_ink_[n] = std::min(
-            kMostInk, p.tone_most * std::pow(std::max(0.0f, target_ink_[n]), p.tone_gamma) + p.tone_lines * fields.lines[n]);
+        target_ink_[n] = std::min(kMostInk, p.tone_most * std::pow(std::max(0.0f, target_ink_[n]), p.tone_gamma) +
+                                                p.tone_lines * fields.lines[n]);
 
     constexpr float kDensityWindow_u = 7, kImportanceInk = 0.1f, kLeastDensity = 0.02f;
     raw_.resize(dendrite.size());
@@ -94,8 +95,7 @@ float Widths::raw_width(std::uint32_t v, float tone_width) const {
         sum += p.importance *
                between(std::pow(sample(fields_.importance, dendrite_.position_lattice[v]), p.importance_gamma));
     if (p.branch > 0)
-        sum += p.branch *
-               between(std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent));
+        sum += p.branch * between(std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent));
     if (p.piped > 0) sum += p.piped * pipe_[v];
     float width = sum / total;
     if (p.swing > 0) width *= swing(v, width);
@@ -182,7 +182,8 @@ void Widths::cap_at_junctions() {
         const float cap = kShareOfParent * widths_[branch.nodes[0]];
         float arc = 0;
         for (std::size_t k = 1; k < branch.nodes.size() && arc < release; ++k) {
-            arc += distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
+            arc +=
+                distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
             float& width = widths_[branch.nodes[k]];
             width = std::min(width, cap + (widest - cap) * smoothstep(0, release, arc));
         }
@@ -196,7 +197,8 @@ void Widths::taper_tips() {
     for (const Branch& branch : branching_.branches) {
         float total = 0;
         for (std::size_t k = 1; k < branch.nodes.size(); ++k)
-            total += distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
+            total +=
+                distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
         const float at_tip = p.tip_width * u_;
         float arc = 0, thickest = 0;
         for (std::size_t k = branch.nodes.size(); k-- > 1;) {
@@ -205,7 +207,8 @@ void Widths::taper_tips() {
             const float length = std::min(total, std::max(p.tip * u_, kLengthsPerWidth * thickest));
             const float t = length > 0 ? std::min(1.0f, arc / length) : 1;
             width = std::min(width, at_tip + std::max(0.0f, width - at_tip) * std::sqrt(t) * (1.5f - 0.5f * t));
-            arc += distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
+            arc +=
+                distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
             if (arc > std::max(p.tip * u_, kLengthsPerWidth * std::max(p.widest, p.trunk) * u_)) break;
         }
     }

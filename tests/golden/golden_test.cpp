@@ -91,7 +91,8 @@ TEST_P(Goldens, PictureLooksLikeTheStoredOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, Goldens,
-                         ::testing::Values(Golden{"vine", "portrait"}, Golden{"vine", "still-life"}, Golden{"ink", "cat"}),
+                         ::testing::Values(Golden{"vine", "portrait"}, Golden{"vine", "still-life"},
+                                           Golden{"ink", "cat"}),
                          [](const auto& info) {
                              std::string name = std::string(info.param.style) + "_" + info.param.sample;
                              std::replace(name.begin(), name.end(), '-', '_');

@@ -18,7 +18,9 @@ namespace {
 
 class EveryStyle : public ::testing::TestWithParam<std::string> {
   protected:
-    static Style style(int detail = 200) { return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}}); }
+    static Style style(int detail = 200) {
+        return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}});
+    }
     static Drawing drawing(const Picture& picture, const Controls& controls = {}, int threads = 0) {
         Work work;
         work.threads = threads;
@@ -108,7 +110,8 @@ TEST_P(EveryStyle, OddPicturesGiveADrawingOrAnError) {
         const Drawing d = drawing(test::scene(size));
         EXPECT_EQ(first_fault(d.dendrite), "") << size.x << "x" << size.y;
     }
-    for (const std::uint8_t v : {0, 128, 255}) EXPECT_EQ(first_fault(drawing(test::flat({50, 50}, {v, v, v, 255})).dendrite), "");
+    for (const std::uint8_t v : {0, 128, 255})
+        EXPECT_EQ(first_fault(drawing(test::flat({50, 50}, {v, v, v, 255})).dendrite), "");
     EXPECT_THROW(drawing(test::flat({50, 50}, {9, 9, 9, 0})), Error);
     Controls black;
     black.mask = test::flat({5, 5}, {0, 0, 0, 255});
@@ -126,7 +129,8 @@ TEST_P(EveryStyle, HalfTheDetailIsAnHonestPreview) {
     for (std::size_t n = 0; n < full.size(); ++n) mf += full[n], mh += half[n];
     mf /= double(full.size()), mh /= double(half.size());
     for (std::size_t n = 0; n < full.size(); ++n)
-        fh += (full[n] - mf) * (half[n] - mh), ff += (full[n] - mf) * (full[n] - mf), hh += (half[n] - mh) * (half[n] - mh);
+        fh += (full[n] - mf) * (half[n] - mh), ff += (full[n] - mf) * (full[n] - mf),
+            hh += (half[n] - mh) * (half[n] - mh);
     EXPECT_GT(fh / std::sqrt(ff * hh), 0.9);
 }
 
@@ -143,7 +147,8 @@ TEST_P(EveryStyle, EveryIntermediateCanBeShown) {
 TEST(Vine, TheDrawnToneFollowsThePicture) {
     const Picture picture = test::scene({320, 240});
     const Drawing d = stylize(picture, load_style("vine", {{"lattice.detail", "640"}}), {});
-    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 8), wanted = blurred(luma_plane(picture), 8);
+    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 8),
+                      wanted = blurred(luma_plane(picture), 8);
     EXPECT_LT(drawn(110, 130), 0.45f) << "the dark side of the disc";
     EXPECT_GT(drawn(40, 200), 0.8f) << "the calm ground";
     EXPECT_GT(wanted(40, 200) - wanted(110, 130), 0.5f);

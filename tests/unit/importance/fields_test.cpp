@@ -119,7 +119,8 @@ TEST(FlatFrame, AFlatBackgroundIsNoFrame) {
 
 TEST(Filters, WideBlurOnAReducedCopyMeetsTheFullOne) {
     Fields fields = fields_of(test::scene({300, 200}), {300, 200});
-    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7), wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
+    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7),
+                      wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
     float worst = 0;
     for (std::size_t n = 0; n < wide.size(); ++n) worst = std::max(worst, std::abs(direct[n] - wide[n]));
     EXPECT_LT(worst, 0.03f);

@@ -75,9 +75,7 @@ struct Drawn {
     Dendrite dendrite = test::tree({80, 80}, 6, 120).dendrite;
     Branching b = branching(dendrite);
     Grid<float> tone{Extent{80, 80}, 0.6f}, lines{Extent{80, 80}, 0.0f}, importance{Extent{80, 80}, 0.5f};
-    Widths widths(WidthParameters p, float u = 1) const {
-        return Widths(dendrite, b, p, {tone, lines, importance}, u);
-    }
+    Widths widths(WidthParameters p, float u = 1) const { return Widths(dendrite, b, p, {tone, lines, importance}, u); }
 };
 
 TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
@@ -110,7 +108,8 @@ TEST(Widths, DarkerTonesAreWider) {
     drawn.tone = Grid<float>({80, 80}, 0.1f);
     const Widths light = drawn.widths({});
     double sum_dark = 0, sum_light = 0;
-    for (std::uint32_t v = 0; v < drawn.dendrite.size(); ++v) sum_dark += dark.widths()[v], sum_light += light.widths()[v];
+    for (std::uint32_t v = 0; v < drawn.dendrite.size(); ++v)
+        sum_dark += dark.widths()[v], sum_light += light.widths()[v];
     EXPECT_GT(sum_dark, 1.5 * sum_light);
 }
 
