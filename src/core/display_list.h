@@ -19,6 +19,7 @@ struct VariableStroke {
     Rgba colour;
     std::uint16_t order = 0;  ///< branch order: 0 leaves a root, n + 1 leaves a branch of order n
     std::uint8_t stage = 0;   ///< the stage that grew it
+    std::uint8_t layer = 0;   ///< 0 in front, higher ones behind
 };
 
 /// A closed outline (implicitly closed polygon), filled, even-odd never needed.

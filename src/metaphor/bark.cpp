@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/noise.h"
+#include "core/sampling.h"
 
 namespace dstylize {
 namespace {
@@ -23,17 +24,28 @@ Vec2f along(const VariableStroke& stroke, std::size_t k) {
 class Painter {
   public:
     Painter(const Subject& subject, const BarkParameters& parameters)
-        : p_(parameters), u_(subject.u_px), noise_(subject.seed, Purpose::bark) {
+        : subject_(subject),
+          p_(parameters),
+          u_(subject.u_px),
+          wanted_(subject.field("wanted")),
+          guided_(subject.field("guided")),
+          noise_(subject.seed, Purpose::bark) {
         const float angle = p_.light_deg * 3.14159265f / 180;
         light_ = {std::cos(angle), std::sin(angle)};
     }
 
-    void limb(const VariableStroke& stroke, Layer& layer) {
+    void limb(VariableStroke stroke, Layer& layer) {
         ++limbs_;
+        const float haze = stroke.layer > 0 ? 1 - std::pow(1 - p_.back_haze, float(stroke.layer)) : 0;
+        lit_ = mixed(p_.lit, p_.haze, haze);
+        shade_ = mixed(p_.shade, p_.haze, haze);
+        if (stroke.layer > 0)
+            for (float& width : stroke.width_px) width *= p_.back_width;
         const float widest = *std::max_element(stroke.width_px.begin(), stroke.width_px.end());
         VariableStroke outline = stroke;
         const float thick = smoothstep(0, p_.round_from * 2, widest / u_);
-        outline.colour = mixed(mixed(p_.lit, p_.shade, p_.twig_shade), p_.shade, thick);
+        const float tone = p_.twig_tone * toned(stroke.points_px[stroke.points_px.size() / 2]);
+        outline.colour = mixed(mixed(lit_, shade_, std::clamp(p_.twig_shade + tone, 0.0f, 1.0f)), shade_, thick);
         layer.items.emplace_back(std::move(outline));
         if (widest < p_.round_from * u_) return;
         const int bands = std::clamp(int(widest / (1.6f * u_)) + 1, 2, 8);
@@ -49,7 +61,7 @@ class Painter {
         VariableStroke out;
         out.order = limb.order;
         out.stage = limb.stage;
-        out.colour = mixed(p_.shade, p_.lit, std::pow(inner, 0.8f));
+        out.colour = mixed(shade_, lit_, std::pow(inner, 0.8f));
         for (std::size_t k = 0; k < limb.points_px.size(); ++k) {
             const float width = limb.width_px[k],
                         shaded = smoothstep(0.6f * p_.round_from, 1.6f * p_.round_from, width / u_);
@@ -94,7 +106,7 @@ class Painter {
                     draws = !draws;
                     run = (draws ? 14 + 40 * random() : 5 + 22 * random()) * u_;
                     const bool dark = random() < 0.72f;
-                    out.colour = dark ? p_.shade : mixed(p_.lit, {1, 0.96f, 0.88f, 1}, 0.25f);
+                    out.colour = dark ? shade_ : mixed(lit_, {1, 0.96f, 0.88f, 1}, 0.25f);
                     out.colour.a = p_.furrows * (dark ? 0.75f : 0.4f);
                 }
                 if (!draws) continue;
@@ -108,10 +120,19 @@ class Painter {
         }
     }
 
+    /// How much darker than its middle the picture wants it there, in [-1, 1].
+    float toned(Vec2f at_px) const {
+        const Vec2f node = at_px * (1 / subject_.px_per_node);
+        return sample(guided_, node) * (2 * sample(wanted_, node) - 1);
+    }
+
     float random() { return noise_.unit(std::uint64_t(limbs_) << 24 | ++draws_); }
 
+    const Subject& subject_;
     const BarkParameters& p_;
     const float u_;
+    const Grid<float>&wanted_, &guided_;
+    Rgba lit_, shade_;  // of the present limb's layer
     Noise noise_;
     Vec2f light_;
     std::uint32_t limbs_ = 0, draws_ = 0;
@@ -127,22 +148,32 @@ void BarkParameters::visit(ParameterVisitor& v) {
     v.number({"furrows", "", "opacity of the bark's furrows"}, furrows, 0, 1);
     v.number({"furrow_from", "u", "limbs wider than this have furrows"}, furrow_from, 1, 100);
     v.number({"twig_shade", "", "how dark the thinnest twigs are"}, twig_shade, 0, 1);
+    v.number({"twig_tone", "", "how much lighter twigs are where the picture is light"}, twig_tone, 0, 1);
+    v.colour({"haze", "", "colour of what stands far behind"}, haze);
+    v.number({"back_haze", "", "share of haze in the layer behind, more in those farther back"}, back_haze, 0, 1);
+    v.number({"back_width", "", "widths behind, as a share of those in front"}, back_width, 0.1f, 1);
 }
 
-Layer bark_layer(const Subject& subject, const BarkParameters& parameters) {
+std::vector<Layer> bark_layers(const Subject& subject, const BarkParameters& parameters) {
     const auto& strokes = subject.strokes;
     std::vector<float> widest(strokes.size());
     for (std::size_t s = 0; s < strokes.size(); ++s)
         widest[s] = *std::max_element(strokes[s].width_px.begin(), strokes[s].width_px.end());
     std::vector<std::uint32_t> order(strokes.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return widest[a] < widest[b]; });
-    Layer layer{"branches", Blend::over, {}};
-    layer.items.reserve(strokes.size());
+    const auto rank = [&](std::uint32_t s) { return std::pair(-int(strokes[s].layer), widest[s]); };
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+    std::vector<Layer> layers;
     Painter painter(subject, parameters);
-    for (const std::uint32_t s : order) painter.limb(strokes[s], layer);
-    return layer;
+    int layer = -1;
+    for (const std::uint32_t s : order) {
+        if (strokes[s].layer != layer) {
+            layer = strokes[s].layer;
+            layers.push_back({layer == 0 ? "branches" : "branches behind", Blend::over, {}});
+        }
+        painter.limb(strokes[s], layers.back());
+    }
+    return layers;
 }
 
 }  // namespace dstylize

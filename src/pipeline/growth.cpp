@@ -96,10 +96,16 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
     return out;
 }
 
+constexpr double kHeightPerWeight = 2, kStraightLength = 5;
+
+/// What a straight step between nodes of cost `carry_cost` costs.
+double cost_per_step(const StageParameters& stage) {
+    return kHeightPerWeight * kStraightLength * double(stage.levels - 1) * double(stage.carry_cost / stage.cost_max);
+}
+
 double mean_cost_per_step(const WeightedLattice& graph, const Dendrite& drawn) {
     double sum = 0;
     for (const NodeId node : drawn.node) sum += graph.weight[index(node)];
-    constexpr double kHeightPerWeight = 2, kStraightLength = 5;
     return drawn.size() ? kHeightPerWeight * kStraightLength * sum / double(drawn.size()) : 0;
 }
 
@@ -107,8 +113,9 @@ std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& g
                                   float u) {
     if (stage.sources == StageParameters::Sources::dendrite) {
         const bool remembers = stage.metric == Metric::sum || stage.metric == Metric::blend;
-        return growth.sources(remembers ? stage.carry : 0, mean_cost_per_step(graph, growth.dendrite()),
-                              remembers ? double(stage.bare * u) : 0);
+        const double counted =
+            stage.carry_cost > 0 ? cost_per_step(stage) : mean_cost_per_step(graph, growth.dendrite());
+        return growth.sources(remembers ? double(stage.carry) : 0, counted, remembers ? double(stage.bare * u) : 0);
     }
     std::vector<Source> out;
     const Dendrite& d = growth.dendrite();
@@ -180,6 +187,7 @@ Grown grow(Prepared& base, const Style& style, const Controls& controls, Extent 
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
         out.endpoints.push_back(0);
+        if (s > 0 && stage.layer != style.stages[s - 1].layer) growth.start_layer(0);
         const bool given = !controls.endpoints.empty();
         for (int batch = 0; batch < (given ? 1 : stage.batches); ++batch) {
             const Round round{stage, std::uint32_t(s), batch};

@@ -34,6 +34,7 @@ struct RunRequest {
 
     AuxiliaryFile importance, mask, endpoints;  ///< empty path: none
     bool importance_replaces = false;
+    bool no_picture = false;  ///< grow without being led by the picture
     std::vector<RootChoice> roots;
     Background background;
     std::string background_xxh128;  ///< as in AuxiliaryFile, of background.file

@@ -54,6 +54,12 @@ void StageParameters::visit(ParameterVisitor& v) {
     v.integer({"blend_factor", "", "weight of the highest edge in the metric `blend`"}, blend_factor, 0, 1000000);
     choice(v, {"sources", "", "paths start at the root, or anywhere on the dendrite so far"}, sources, kSources);
     v.number({"carry", "", "share of the way from the root that paths remember: 0 hedgehogs, 0.8 plants"}, carry, 0, 1);
+    v.number({"carry_cost", "", "node cost at which that way is counted; 0: the mean one on the dendrite"}, carry_cost,
+             0, 100);
+    v.integer({"layer", "",
+               "0 in front; a stage of another layer than the one before it starts anew from the first stage, and "
+               "may pass behind the others"},
+              layer, 0, 8);
     v.field_weights({"cost", "", "weights of fields in a node's cost"}, cost);
     v.number({"cost_constant", "", "constant part of a node's cost"}, cost_constant, -4, 20);
     v.number({"cost_power", "", "above 1 makes paths shun costly nodes"}, cost_power, 0.25f, 8);
@@ -79,6 +85,12 @@ void StageParameters::visit(ParameterVisitor& v) {
     v.section("endpoints", "where paths must arrive", [this](ParameterVisitor& inner) { endpoints.visit(inner); });
 }
 
+void ChoiceParameters::visit(ParameterVisitor& v) {
+    v.integer({"growths", "", "drawings grown; the one that shows the picture's features best is kept"}, growths, 1,
+              32);
+    v.number({"window", "u", "how finely they are compared with the picture"}, window, 0.5f, 100);
+}
+
 void Style::visit(ParameterVisitor& v) {
     v.section("lattice", "what the dendrite grows on", [this](ParameterVisitor& inner) { lattice.visit(inner); });
     v.section("fields", "what is read off the picture", [this](ParameterVisitor& inner) { fields.visit(inner); });
@@ -90,6 +102,7 @@ void Style::visit(ParameterVisitor& v) {
                   [&stage](ParameterVisitor& inner) { stage.visit(inner); });
     v.section("stroke", "branches to smooth centrelines", [this](ParameterVisitor& inner) { stroke.visit(inner); });
     v.section("width", "how wide strokes are", [this](ParameterVisitor& inner) { width.visit(inner); });
+    v.section("choice", "the best of several drawings", [this](ParameterVisitor& inner) { choice.visit(inner); });
     v.section(metaphor_name, "how strokes are dressed", [this](ParameterVisitor& inner) { metaphor->visit(inner); });
 }
 

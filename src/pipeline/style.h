@@ -59,7 +59,8 @@ struct StageParameters {
     Metric metric = Metric::max_sum;
     int blend_factor = 5000;
     Sources sources = Sources::root;
-    float carry = 0;
+    float carry = 0, carry_cost = 0;
+    int layer = 0;
     FieldWeights cost;
     float cost_constant = 1, cost_power = 1, cost_max = 1;
     int levels = 255;
@@ -76,6 +77,14 @@ struct StageParameters {
     void visit(ParameterVisitor& visitor);
 };
 
+/// How many drawings are grown and which one is kept: the [choice] table.
+struct ChoiceParameters {
+    int growths = 1;
+    float window = 5;
+
+    void visit(ParameterVisitor& visitor);
+};
+
 /// A style with every parameter in place: what a file in filters/ says, nothing left to default later.
 struct Style {
     std::string name;
@@ -86,6 +95,7 @@ struct Style {
     std::vector<StageParameters> stages;
     StrokeParameters stroke;
     WidthParameters width;
+    ChoiceParameters choice;
     std::string metaphor_name;
     std::unique_ptr<Metaphor> metaphor;
 
