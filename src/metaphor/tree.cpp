@@ -37,19 +37,18 @@ class Tree final : public Metaphor {
                 stroke.points_px[std::min<std::size_t>(last, 8)].y > stroke.points_px[0].y)
                 continue;
             const float foot = std::max(8 * u, stroke.width_px[0]);
-            const int blades = int(grass_ * (60 + 9 * foot / u));
+            const int blades = int(grass_ * (70 + 12 * foot / u));
             for (int k = 0; k < blades; ++k) {
                 const auto random = noise.block(2 * draw), more = noise.block(2 * draw + 1);
                 ++draw;
                 const auto unit = [](std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; };
-                const float t = unit(random[0]) + unit(random[1]) - 1;  // denser in the middle
-                const float x = 2.7f * t * foot;
-                // Low enough to cover the round end of the trunk, and to stand on a slight mound.
-                const float at_trunk = std::sqrt(std::max(0.0f, 1 - 3.2f * x * x / (foot * foot)));
-                const float below = (0.12f + 0.5f * at_trunk * (0.7f + 0.3f * unit(more[0]))) * foot;
-                const float tall = (7 + 12 * unit(random[2])) * u * (1 - 0.6f * std::abs(t)) + 0.45f * at_trunk * foot;
-                const float lean = (unit(random[3]) - 0.5f) * 0.8f * tall;
-                const Vec2f at = stroke.points_px[0] + Vec2f{x, below};
+                // Denser and taller before the trunk, whose round end it hides.
+                const float t = (unit(random[0]) + unit(random[1]) + unit(more[2])) / 1.5f - 1;
+                const float near_trunk = std::exp(-9 * t * t);
+                const float tall = (6 + 12 * unit(random[2])) * u + near_trunk * (0.25f + 0.5f * unit(more[3])) * foot;
+                const float lean = (unit(random[3]) - 0.5f + 0.5f * t) * 0.7f * tall;
+                const float below = (0.45f - 0.25f * t * t + 0.12f * unit(more[0])) * foot;
+                const Vec2f at = stroke.points_px[0] + Vec2f{3.2f * t * foot, below};
                 VariableStroke blade;
                 blade.points_px = {at, at + Vec2f{0.25f * lean, -0.6f * tall}, at + Vec2f{lean, -tall}};
                 blade.width_px = {2.0f * u, 1.4f * u, 0.3f * u};

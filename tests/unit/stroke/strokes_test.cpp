@@ -75,7 +75,10 @@ struct Drawn {
     Dendrite dendrite = test::tree({80, 80}, 6, 120).dendrite;
     Branching b = branching(dendrite);
     Grid<float> tone{Extent{80, 80}, 0.6f}, lines{Extent{80, 80}, 0.0f}, importance{Extent{80, 80}, 0.5f};
-    Widths widths(WidthParameters p, float u = 1) const { return Widths(dendrite, b, p, {tone, lines, importance}, u); }
+    Grid<float> guided{Extent{80, 80}, 1.0f};
+    Widths widths(WidthParameters p, float u = 1) const {
+        return Widths(dendrite, b, p, {tone, lines, importance, guided}, u);
+    }
 };
 
 TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
