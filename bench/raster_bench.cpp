@@ -61,7 +61,14 @@ void pdf_of_the_list(benchmark::State& state) {
 
 BENCHMARK(svg_of_the_list)->Unit(benchmark::kMillisecond);
 BENCHMARK(pdf_of_the_list)->Unit(benchmark::kMillisecond);
-BENCHMARK(raster_of_long_side)->Arg(300)->Arg(1024)->Arg(2048)->Arg(6000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(raster_of_long_side)
+    ->Arg(300)
+    ->Arg(1024)
+    ->Arg(2048)
+    ->Arg(6000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace dstylize

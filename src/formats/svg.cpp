@@ -175,6 +175,7 @@ class SvgWriter {
         if (layer.groups.empty()) return;
         std::string attributes = layer.one_colour ? paint(layer.groups[0].shapes[0].colour) : "";
         if (layer.opacity < 1) attributes += opacity("opacity", layer.opacity);
+        if (layer.light) attributes += " style=\"mix-blend-mode:screen\"";
         open_group(layer.name, layer.name, attributes);
         for (const ShapeGroup& group : layer.groups) {
             const std::string label =

@@ -44,6 +44,12 @@ Grid<float> gradient(Fields& fields) {
         for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::max(out[n], p.gradient_wide_share * wide[n]);
     }
     if (p.gradient_gamma != 1) transform(out, [&](float v) { return std::pow(v, p.gradient_gamma); });
+    if (p.gradient_tone > 0) {
+        const Grid<float> tone = blurred(fields["tone"], 0.8f * fields.u());
+        for (std::size_t n = 0; n < out.size(); ++n)
+            out[n] *= 1 - p.gradient_tone * (1 - smoothstep(0.15f, 0.75f, tone[n]));
+        normalise(out, p.gradient_percentile);
+    }
     return out;
 }
 
@@ -98,6 +104,17 @@ Grid<float> features(Fields& fields) {
         normalise(out, 98.5f);
     }
     apply_user_map(fields, out);
+    return out;
+}
+
+Grid<float> low_features(Fields& fields) {
+    constexpr float kTop = 0.35f, kLow = 0.8f;  // shares of the height
+    Grid<float> out = fields["features"];
+    const Extent e = out.extent();
+    for (int j = 0; j < e.y; ++j) {
+        const float share = smoothstep(kTop, kLow, (float(j) + 0.5f) / float(e.y));
+        for (int i = 0; i < e.x; ++i) out(i, j) *= share;
+    }
     return out;
 }
 

@@ -10,10 +10,10 @@
 namespace dstylize::field {
 
 Grid<float> white_noise(Fields& fields) {
-    constexpr float kCells = 2048;  // along the long side
+    constexpr float kCellsPer_u = 2;
     const Noise noise(fields.seed(), Purpose::white_noise);
     const Extent e = fields.extent();
-    const float per_node = kCells / float(e.long_side());
+    const float per_node = kCellsPer_u / fields.u();
     Grid<float> out(e);
     for (int j = 0; j < e.y; ++j)
         for (int i = 0; i < e.x; ++i) {

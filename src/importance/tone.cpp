@@ -9,12 +9,17 @@
 namespace dstylize::field {
 namespace {
 
-/// Adds the difference to the mean of the surroundings and stretches what comes out over [0, 1].
-void against_surroundings(Grid<float>& tone, float amount, float sigma) {
+/// tone - share * its wide blur, stretched to [0, 1] again.
+void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
     const Grid<float> around = blurred(tone, sigma);
-    for (std::size_t n = 0; n < tone.size(); ++n) tone[n] += amount * (tone[n] - around[n]);
-    const float lo = percentile(tone, 2), hi = percentile(tone, 98);
-    if (hi - lo > 1e-4f) transform(tone, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+    for (std::size_t n = 0; n < tone.size(); ++n) tone[n] -= share * around[n];
+    const float lo = percentile(tone, 5), hi = percentile(tone, 98);
+    // A picture of one colour has nothing to stretch.
+    if (hi - lo < 1e-4f) {
+        for (std::size_t n = 0; n < tone.size(); ++n) tone[n] += share * around[n];
+        return;
+    }
+    transform(tone, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
 }
 
 }  // namespace
@@ -40,12 +45,12 @@ Grid<float> darkness(Fields& fields) {
 Grid<float> tone(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<float> out = fields[p.bright ? "lightness" : "darkness"];
-    if (p.tone_local > 0) against_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     const float equalise = p.tone_equalise;
     if (equalise > 0) {
         const Grid<float> ranks = rank(out);
         for (std::size_t n = 0; n < out.size(); ++n) out[n] = (1 - equalise) * out[n] + equalise * ranks[n];
     }
+    if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
     transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
     if (p.tone_contrast > 0)

@@ -19,6 +19,9 @@ struct Subject {
     /// A field of the picture by name, on the lattice.
     std::function<const Grid<float>&(std::string_view)> field;
     std::uint64_t seed = 0;
+    const Picture* picture = nullptr;  ///< the input itself, at its own size; never null in a drawing
+    /// Beside `strokes`, one value per point: the share of all tips that hang on it, in (0, 1].
+    std::span<const std::vector<float>> tip_share = {};
 };
 
 /// How a dendrite is dressed: ink, vine, later lightning, lichen, bark. Its parameters are the table

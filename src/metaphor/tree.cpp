@@ -4,6 +4,7 @@
 
 #include "core/noise.h"
 #include "metaphor/bark.h"
+#include "metaphor/foliage.h"
 
 namespace dstylize {
 namespace {
@@ -14,12 +15,14 @@ class Tree final : public Metaphor {
         v.colour({"paper", "", "colour of the ground"}, paper_);
         v.number({"grain", "", "lightness noise of the paper, on raster outputs up to 4 megapixels"}, grain_, 0, 0.2f);
         bark_.visit(v);
+        foliage_.visit(v);
         v.number({"grass", "", "how densely grass hides the foot of the trunk"}, grass_, 0, 4);
         v.colour({"grass_colour", "", "colour of the grass"}, grass_colour_);
     }
     DisplayList draw(const Subject& subject) const override {
         DisplayList list{subject.width_px, subject.height_px, {paper_, grain_, subject.seed}, {}};
         list.layers = bark_layers(subject, bark_);
+        if (foliage_.foliage > 0) list.layers.push_back(foliage_layer(subject, foliage_));
         if (grass_ > 0) list.layers.push_back(grass(subject));
         return list;
     }
@@ -64,6 +67,7 @@ class Tree final : public Metaphor {
     Rgba paper_{0xf2 / 255.0f, 0xe9 / 255.0f, 0xd6 / 255.0f, 1};
     float grain_ = 0.006f;
     BarkParameters bark_;
+    FoliageParameters foliage_;
     float grass_ = 1;
     Rgba grass_colour_{0x35 / 255.0f, 0x2d / 255.0f, 0x22 / 255.0f, 1};
 };

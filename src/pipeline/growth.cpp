@@ -11,6 +11,7 @@
 #include "dendrite/graft.h"
 #include "graph/bucket_planner.h"
 #include "graph/height_planes.h"
+#include "graph/meeting_points.h"
 #include "imaging/filters.h"
 #include "importance/fractal_noise.h"
 #include "pipeline/endpoints.h"
@@ -52,7 +53,7 @@ void add_noise(Grid<float>& cost, const Fields& fields, const Round& round) {
 }
 
 /// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
-WeightedLattice weights(Fields& fields, const Prepared& base, const Round& round, const Work& work) {
+WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Work& work) {
     const StageParameters& stage = round.stage;
     WeightedLattice graph{base.lattice, {}, {}, true};
     Grid<float> cost = node_cost(fields, round);
@@ -76,6 +77,8 @@ WeightedLattice weights(Fields& fields, const Prepared& base, const Round& round
         directional.strength = stage.along_flow;
         if (scattered)
             directional.pull = pull;
+        else if (pull.x == 0 && pull.y > 0)
+            directional.step_factor = downward_bias(graph.lattice, pull.y);
         else if (length(pull) > 0)
             directional.step_factor = pull_factors(graph.lattice, pull);
         build_height_planes(graph, directional, work);
@@ -94,6 +97,18 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
         if (graph.passable(node)) out.push_back(node);
     }
     return out;
+}
+
+/// The endpoints that close the rings of the priority field's ridges.
+std::vector<NodeId> loop_closings(Fields& fields, const WeightedLattice& graph, const Plan& plan,
+                                  const EndpointParameters& p) {
+    constexpr float kApart = 0.16f;  // of the shortest way around
+    const Grid<float>& ridge = fields[p.priority];
+    Grid<std::uint8_t> candidate(ridge.extent());
+    for (std::size_t n = 0; n < ridge.size(); ++n)
+        candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
+    const float around = p.close_loops * fields.u();
+    return meeting_points(graph.lattice, plan, candidate, std::max(1, int(around)), kApart * around);
 }
 
 constexpr double kHeightPerWeight = 2, kStraightLength = 5;
@@ -176,14 +191,24 @@ Growth::Accept path_filter(Fields& fields, const Lattice& lattice, const Round& 
     };
 }
 
+/// What a unit of length costs on the nodes that a stage added, as a share of its dearest node.
+void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t first, const WeightedLattice& graph,
+                  const StageParameters& stage) {
+    for (std::size_t v = first; v < drawn.size(); ++v) {
+        const std::uint32_t n = index(drawn.node[v]);
+        node_cost[n] = float(graph.weight[n]) / float(stage.levels);
+    }
+}
+
 }  // namespace
 
-Grown grow(Prepared& base, const Style& style, const Controls& controls, Extent picture_px,
+Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
            const StageObserver& observer, const Work& work) {
     Fields& fields = base.fields;
     Growth growth(base.lattice);
     Grown out;
     const auto stages = double(style.stages.size());
+    out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
         out.endpoints.push_back(0);
@@ -206,19 +231,25 @@ Grown grow(Prepared& base, const Style& style, const Controls& controls, Extent 
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
                     growth.add_root(node, owner++);
             }
-            const std::vector<NodeId> endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
-                                                        : placed_endpoints(fields, stage.endpoints,
-                                                                           {base.passable, graph, growth.dendrite(),
-                                                                            std::uint32_t(s), batch, stage.batches},
-                                                                           controls.seed, work);
+            std::vector<NodeId> endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
+                                                  : placed_endpoints(fields, stage.endpoints,
+                                                                     {base.passable, graph, growth.dendrite(),
+                                                                      std::uint32_t(s), batch, stage.batches},
+                                                                     controls.seed, work);
             work.report(stage.name + ": paths", (0.4 + done) / (stages + 1));
             const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
             const Plan plan =
                 bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+            if (stage.endpoints.close_loops > 0 && !given) {
+                const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
+                endpoints.insert(endpoints.end(), closings.begin(), closings.end());
+            }
             if (observer) observer({stage, graph, plan, endpoints});
             out.endpoints.back() += endpoints.size();
+            const std::size_t before = growth.dendrite().size();
             out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),
                                           given ? Growth::Accept{} : path_filter(fields, base.lattice, round, lacking));
+            record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
         }
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));

@@ -3,7 +3,7 @@
 
 #include "core/dendrite.h"
 #include "core/work.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 
 namespace dstylize {
 
@@ -20,10 +20,11 @@ struct Grown {
     Dendrite dendrite;
     std::vector<std::size_t> endpoints;  ///< placed, per stage
     std::size_t unreached = 0;           ///< endpoints without a path
+    Grid<float> node_cost;               ///< of a unit of length at each node of the dendrite, 0 elsewhere
 };
 
 /// Runs the stages of a style, each in its batches: weights, endpoints, plan, graft. `observer` may be empty.
-Grown grow(Prepared& base, const Style& style, const Controls& controls, Extent picture_px,
+Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
            const StageObserver& observer, const Work& work);
 
 }  // namespace dstylize

@@ -52,7 +52,7 @@ class PlaceScore {
           u_(fields.u()),
           inset_(parameters.inset * u_),
           centring_(parameters.centring),
-          interest_(blurred(fields[place == Place::darkest ? "darkness" : "importance"],
+          interest_(blurred(fields[place == Place::darkest ? "darkness" : std::string_view(parameters.interest)],
                             (place == Place::darkest ? 6 : 3) * u_)) {}
 
     float operator()(const Box& box, int i, int j) const {
@@ -161,14 +161,14 @@ PassableParts passable_parts(const WeightedLattice& graph) {
 
 std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, const RootParameters& parameters,
                                const std::vector<RootChoice>& chosen, Extent picture_px) {
-    constexpr float kMoveAtMost_u = 8, kSmallestPart_u = 3;
+    constexpr float kMoveAtMost_u = 8;
     const PassableParts parts = passable_parts(graph);
     if (parts.size.empty())
         throw Error(ErrorCode::failed, "", "nothing can grow: the mask or the transparent picture leaves no room",
                     "give a mask with some white, or a picture that is not all transparent");
     std::vector<RootChoice> choices = chosen;
     if (choices.empty()) choices.push_back({parameters.place, {}, {}});
-    const float smallest = std::min(kSmallestPart_u * kSmallestPart_u * fields.u() * fields.u(),
+    const float smallest = std::min(parameters.smallest_part * fields.u() * fields.u(),
                                     float(*std::max_element(parts.size.begin(), parts.size.end())));
     std::vector<NodeId> out;
     for (const RootChoice& choice : choices) {
@@ -189,6 +189,14 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
             const NodeId node = cheapest_near(graph, parts, start, kMoveAtMost_u * fields.u());
             if (std::find(out.begin(), out.end(), node) == out.end()) out.push_back(node);
         }
+    }
+    if (!parameters.every_part || chosen.empty()) return out;
+    std::vector<bool> has_root(parts.size.size(), false);
+    for (const NodeId node : out) has_root[parts.part[index(node)]] = true;
+    for (const NodeId start : best_of_parts(fields, graph, parts, parameters, parameters.place)) {
+        const std::uint32_t part = parts.part[index(start)];
+        if (!has_root[part] && float(parts.size[part]) >= smallest)
+            out.push_back(cheapest_near(graph, parts, start, kMoveAtMost_u * fields.u()));
     }
     return out;
 }

@@ -32,7 +32,9 @@ Work part(const Work& work, double from, double to) {
     return inner;
 }
 
-std::string name_of(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
+std::string name_of(const fs::path& path) {
+    return path == "-" ? "standard input" : path.empty() ? "paper" : path.string();
+}
 
 struct ReadFile {
     std::vector<std::byte> bytes;
@@ -106,20 +108,34 @@ class Run {
     }
 
     void read_inputs() {
-        ReadFile read = file(request_.input);
-        recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
-        input_ = codec_.decode(read.bytes, name_of(request_.input));
+        if (!request_.mask.path.empty()) controls_.mask = picture(request_.mask, recipe_.mask);
+        if (request_.input.empty()) {
+            input_.picture = Picture(paper(), {255, 255, 255, 255});
+        } else {
+            ReadFile read = file(request_.input);
+            recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
+            input_ = codec_.decode(read.bytes, name_of(request_.input));
+        }
+        if (request_.writing) controls_.mask = letter_mask(*request_.writing, input_.picture.extent());
+        lattice_ =
+            lattice_scale(input_.picture.extent(), style_.lattice, controls_.mask ? &*controls_.mask : nullptr).extent;
         frame_ = output_frame(request_.size, input_.picture.extent());
         controls_.seed = request_.seed;
         controls_.roots = request_.roots;
         controls_.importance_replaces = request_.importance_replaces;
         controls_.no_picture = request_.no_picture;
         if (!request_.importance.path.empty()) controls_.importance = picture(request_.importance, recipe_.importance);
-        if (!request_.mask.path.empty()) controls_.mask = picture(request_.mask, recipe_.mask);
         if (!request_.endpoints.path.empty()) read_endpoints();
         if (request_.background.kind == Background::Kind::file)
             ground_ = picture({request_.background.file, request_.background_xxh128}, recipe_.background_file);
         if (request_.background.kind == Background::Kind::input) ground_ = input_.picture;
+    }
+
+    /// The size of the paper where there is no input picture.
+    Extent paper() const {
+        if (request_.writing) return paper_extent(*request_.writing);
+        if (controls_.mask) return controls_.mask->extent();
+        throw Error(ErrorCode::bad_usage, "", "no picture is named", "give one, or words to write, or a mask");
     }
 
     void read_endpoints() {
@@ -137,7 +153,7 @@ class Run {
         // Measured: raster, codec and shared memory per output pixel; fields, labels and heights per node.
         constexpr double kBytesPerPixel = 24, kBytesPerNode = 220;
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
-        const double nodes = double(lattice_extent(input_.picture.extent(), style_.lattice.detail).count());
+        const double nodes = double(lattice_.count());
         const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);
         if (wanted > double(request_.max_memory_bytes))
             throw Error(ErrorCode::bad_usage, name_of(request_.input),
@@ -171,6 +187,7 @@ class Run {
             case Background::Kind::style:
             case Background::Kind::file: break;
         }
+        recipe_.writing = request_.writing;
         recipe_.size = output_size_text(request_.size);
         recipe_.style_toml = style_toml(style_);
 
@@ -179,7 +196,7 @@ class Run {
         report_.style = style_.name;
         report_.seed = request_.seed;
         report_.picture = input_.picture.extent();
-        report_.lattice = lattice_extent(report_.picture, style_.lattice.detail);
+        report_.lattice = lattice_;
         report_.recipe = recipe_toml(recipe_);
         report_.dry_run = request_.dry_run;
         for (const PlannedOutput& output : outputs_)
@@ -192,7 +209,10 @@ class Run {
         options.frame = frame_;
         options.quality = request_.quality;
         options.compression = request_.compression;
-        options.title = fmt::format("{} ({})", fs::path(recipe_.input.name).stem().string(), style_.name);
+        const std::string subject = request_.writing              ? request_.writing->lettering.text
+                                    : !recipe_.input.name.empty() ? fs::path(recipe_.input.name).stem().string()
+                                                                  : request_.mask.path.stem().string();
+        options.title = fmt::format("{} ({})", subject, style_.name);
         options.metadata.dpi = input_.metadata.dpi;
         for (const char* key : {"author", "copyright", "description"})
             if (const std::string text = input_.metadata.find(key); !text.empty())
@@ -205,8 +225,14 @@ class Run {
     void lay_ground(Paper& paper) {
         switch (request_.background.kind) {
             case Background::Kind::style: return;
-            case Background::Kind::none: paper.colour.a = 0; break;
-            case Background::Kind::colour: paper.colour = request_.background.colour; break;
+            case Background::Kind::none:
+                paper.colour.a = 0;
+                paper.picture = nullptr;
+                break;
+            case Background::Kind::colour:
+                paper.colour = request_.background.colour;
+                paper.picture = nullptr;
+                break;
             case Background::Kind::input:
             case Background::Kind::file: {
                 Picture ground = middle_part(ground_, frame_.size_px);
@@ -289,6 +315,7 @@ class Run {
     std::vector<PlannedOutput> outputs_;
     DecodedPicture input_;
     OutputFrame frame_;
+    Extent lattice_;
     Controls controls_;
     Picture ground_;
     Recipe recipe_;

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/noise.h"
 #include "pipeline/growth.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 
@@ -142,7 +142,7 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
                     fmt::format("use one of {}", fmt::join(known, ", ")));
-    Prepared base = prepared(picture, style, controls, work);
+    PreparedPicture base = prepared_picture(picture, style, controls, work);
     if (name == "flow") return flow_picture(base.fields.flow());
     const std::string view = name.substr(0, name.find(':'));
     const std::string stage_name = view == name ? style.stages.back().name : name.substr(view.size() + 1);

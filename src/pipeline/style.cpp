@@ -13,9 +13,11 @@ void LatticeParameters::visit(ParameterVisitor& v) {
     choice(v, {"neighbours", "", "regular: steps a path can take from a node; 16 takes staircases out of long lines"},
            neighbourhood, kNeighbourhoods);
     v.number({"margin", "u", "nothing grows this near to the frame"}, margin, 0, 100);
+    v.number({"stem", "u", "with a mask, u is such that its strokes are this wide; 0: 1/1024 of the long side"}, stem,
+             0, 512);
     v.number({"picture_scale", "", "the picture's size inside the frame, as a share of it"}, picture_scale, 0.1f, 4);
-    v.number({"picture_x", "", "where its middle lies, as a share of the frame's width"}, picture_x, 0, 1);
-    v.number({"picture_y", "", "the same of the height"}, picture_y, 0, 1);
+    v.number({"picture_x", "", "where its middle lies, as a share of the frame's width"}, picture_x, -4, 5);
+    v.number({"picture_y", "", "the same of the height"}, picture_y, -4, 5);
 }
 
 void RootParameters::visit(ParameterVisitor& v) {
@@ -23,6 +25,10 @@ void RootParameters::visit(ParameterVisitor& v) {
     choice(v, {"place", "", "where growth starts, always on a cheap node nearby"}, place, kPlaces);
     v.number({"centring", "", "how much a place in the middle counts against an important one"}, centring, 0, 100);
     v.number({"inset", "u", "how far from the frame the bottom or top root lies"}, inset, 0, 200);
+    v.text({"interest", "", "field whose high places are good for roots"}, interest);
+    v.number({"smallest_part", "u^2", "connected parts of the mask smaller than this get no root"}, smallest_part, 0,
+             1e6f);
+    v.flag({"every_part", "", "parts in which the user puts no root get one of their own"}, every_part);
 }
 
 void EndpointParameters::visit(ParameterVisitor& v) {
@@ -38,6 +44,8 @@ void EndpointParameters::visit(ParameterVisitor& v) {
     v.number({"jitter", "", "discs: random share in the priority"}, jitter, 0, 4);
     v.number({"calm_spacing", "u", "distance between endpoints at density 0"}, calm_spacing, 0.5f, 500);
     v.number({"dense_spacing", "u", "distance between endpoints at density 1"}, dense_spacing, 0.5f, 500);
+    v.number({"close_loops", "u", "discs: join ways around holes that are longer than this; 0: leave them open"},
+             close_loops, 0, 2000);
     v.number({"keep_off", "", "discs: share of the spacing kept from what is drawn already"}, keep_off, 0, 2);
     v.number({"first_spacing", "", "discs: spacings of the first batch, as a multiple of the last batch's"},
              first_spacing, 1, 20);

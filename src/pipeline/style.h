@@ -18,7 +18,8 @@ struct LatticeParameters {
     Kind kind = Kind::regular;
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
-    float margin = 5;                                             ///< u: nothing grows this near to the frame
+    float margin = 5;  ///< u: nothing grows this near to the frame
+    float stem = 0;    ///< u: with a mask, how wide its strokes are; 0: u is 1/1024 of the long side
     float picture_scale = 1, picture_x = 0.5f, picture_y = 0.5f;  ///< the picture inside the frame
 
     void visit(ParameterVisitor& visitor);
@@ -28,8 +29,11 @@ struct LatticeParameters {
 struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
-    float centring = 0.35f;  ///< how much a place in the middle counts against an important one
-    float inset = 16;        ///< u: distance from the frame of `bottom` and `top`
+    float centring = 0.35f;               ///< how much a place in the middle counts against an important one
+    float inset = 16;                     ///< u: distance from the frame of `bottom` and `top`
+    std::string interest = "importance";  ///< field: where it is high roots are best
+    float smallest_part = 9;              ///< u^2: smaller connected parts get no root
+    bool every_part = false;              ///< parts without a root of the user's get one of their own
 
     void visit(ParameterVisitor& visitor);
 };
@@ -43,6 +47,7 @@ struct EndpointParameters {
     std::string priority = "density";  ///< discs: field, highest first
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
+    float close_loops = 0;    ///< u: ways around a hole longer than this are joined; 0: never
     float keep_off = 0;       ///< discs: share of the spacing to keep from what is drawn already
     float first_spacing = 1;  ///< the first batch's spacings as a multiple of the last's
     int most = 0;             ///< at most so many in the first batch, the later ones as spacings allow; 0: any number

@@ -164,8 +164,8 @@ toml::table* find_stage(toml::table& tree, std::string_view name) {
     return nullptr;
 }
 
-/// `over` on top of `base`, tables key by key, stages by name. Nodes are moved: a copy forgets the line
-/// that it came from.
+/// `over` on top of `base`, tables key by key, stages by name. Nodes are moved and keys kept whole, so
+/// that both remember the lines that they came from.
 void merge(toml::table& base, toml::table&& over) {
     for (auto&& [key, node] : over) {
         toml::node* below = base.get(key);
@@ -180,7 +180,7 @@ void merge(toml::table& base, toml::table&& over) {
         } else if (below && below->is_table() && node.is_table()) {
             merge(*below->as_table(), std::move(*node.as_table()));
         } else {
-            node.visit([&, name = key.str()](auto& value) { base.insert_or_assign(name, std::move(value)); });
+            node.visit([&, &name = key](auto& value) { base.insert_or_assign(name, std::move(value)); });
         }
     }
 }

@@ -9,7 +9,7 @@
 
 #include "imaging/filters.h"
 #include "pipeline/growth.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 #include "render/raster.h"
 
 namespace dstylize {
@@ -51,6 +51,19 @@ std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const 
     return out;
 }
 
+/// Beside the strokes: the share of all tips that each point carries.
+std::vector<std::vector<float>> tip_shares(const std::vector<Centreline>& lines, const Branching& b) {
+    std::vector<std::vector<float>> out(lines.size());
+    float most = 1;
+    for (const std::uint32_t tips : b.tips) most = std::max(most, float(tips));
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const Branch& branch = b.branches[lines[s].branch];
+        out[s].assign(lines[s].lead, float(b.tips[branch.nodes[0]]) / most);
+        for (const std::uint32_t v : branch.nodes) out[s].push_back(float(b.tips[v]) / most);
+    }
+    return out;
+}
+
 /// Share of every lattice cell that the strokes ink.
 Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
     DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
@@ -80,9 +93,18 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
     }
 }
 
+Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
+    Grid<float> out(fields.extent(), 0.0f);
+    for (const auto& [name, weight] : weights) {
+        const Grid<float>& field = fields[name];
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] += weight * field[n];
+    }
+    return out;
+}
+
 /// One growth, smooth and with its widths.
 struct Candidate {
-    Prepared base;
+    PreparedPicture base;
     Grown grown;
     Branching branching;
     std::vector<Centreline> lines;
@@ -90,7 +112,7 @@ struct Candidate {
 };
 
 Candidate candidate(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
-    Candidate c{prepared(picture, style, controls, work), {}, {}, {}, {}};
+    Candidate c{prepared_picture(picture, style, controls, work), {}, {}, {}, {}};
     Fields& fields = c.base.fields;
     const float u = fields.u();
     c.grown = grow(c.base, style, controls, picture.extent(), {}, work);
@@ -98,9 +120,19 @@ Candidate candidate(const Picture& picture, const Style& style, const Controls& 
     Dendrite& dendrite = c.grown.dendrite;
     c.branching = branching(dendrite);
     smooth(dendrite, c.branching, int(std::lround(style.stroke.smooth * u * u)));
+    warp(dendrite, fields.extent(), style.stroke, u, controls.seed);
     c.lines = centrelines(dendrite, c.branching, int(style.stroke.junction * u));
-    Widths widths(dendrite, c.branching, style.width,
-                  {fields["wanted"], fields["lines"], fields["importance"], fields["guided"]}, u);
+    Grid<float> width_sum, half_width;
+    if (style.width.field > 0) width_sum = weighted_sum(fields, style.width.fields);
+    if (style.width.room_share > 0) {
+        half_width = fields["room"];
+        transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
+    }
+    Widths widths(
+        dendrite, c.branching, style.width,
+        {fields["wanted"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
+         &c.grown.node_cost, half_width.empty() ? nullptr : &half_width, &fields["guided"]},
+        u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, c.lines, dendrite, c.branching, u, work);
     c.widths = widths.widths();
     return c;
@@ -158,12 +190,13 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     const Frame to = frame(out.lattice, out.picture);
     std::vector<VariableStroke> drawn = strokes(best.lines, out.dendrite, best.branching, best.widths, to);
     for (VariableStroke& stroke : drawn) stroke.layer = std::uint8_t(style.stages[stroke.stage].layer);
+    const std::vector<std::vector<float>> shares = tip_shares(best.lines, best.branching);
     out.strokes = drawn.size();
     out.width_u = std::move(best.widths);
-    for (float& w : out.width_u) w /= u;
+    for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
     out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
                                      drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
-                                     controls.seed});
+                                     controls.seed, &picture, shares});
     return out;
 }
 

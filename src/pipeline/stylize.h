@@ -24,6 +24,16 @@ struct Drawing {
 /// The lattice for a picture: `detail` nodes on the long side, at least one on the short.
 Extent lattice_extent(Extent picture_px, int detail);
 
+/// The lattice of a drawing and the style's unit of length on it.
+struct LatticeScale {
+    Extent extent;
+    float nodes_per_u = 1;
+};
+/// `mask` may be null. With a mask and a style that says how wide its strokes are (`lattice.stem`), u follows
+/// the strokes, and the lattice has as many nodes per u as it has otherwise, up to 4096 on the long side: the
+/// drawing of a letter is the same whatever the size of the letter or of the picture.
+LatticeScale lattice_scale(Extent picture_px, const LatticeParameters& parameters, const Picture* mask);
+
 /// The whole way from a picture to a drawing. Same picture, style, controls: same drawing, for any
 /// number of threads. O(n log n) in the lattice's nodes. Throws Error.
 Drawing stylize(const Picture& picture, const Style& style, const Controls& controls, const Work& work = {});

@@ -21,7 +21,8 @@ TEST_F(DeterminismTest, TheSameCommandGivesTheSameBytesInEveryFormat) {
 
 TEST_F(DeterminismTest, ThreadsChangeNothing) {
     for (const std::string format : {"png", "svg", "json"})
-        EXPECT_TRUE(bytes_of({"--threads", "1"}, "a." + format) == bytes_of({"--threads", "2"}, "b." + format)) << format;
+        EXPECT_TRUE(bytes_of({"--threads", "1"}, "a." + format) == bytes_of({"--threads", "2"}, "b." + format))
+            << format;
 }
 
 TEST_F(DeterminismTest, AnotherSeedGivesAnotherDrawing) {

@@ -44,10 +44,11 @@ TEST_F(OutputTest, StandardInputAndOutputServeAsFiles) {
     EXPECT_EQ(read_picture(folder_ / "piped.png").picture, read_picture(folder_ / "out.png").picture);
 }
 
-TEST_F(OutputTest, JsonReportAndStandardOutputExcludeEachOther) {
+TEST_F(OutputTest, OneThingGoesToStandardOutput) {
     const Outcome outcome = draw({"in.png", "-", "--format", "png", "--json"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(nlohmann::json::parse(outcome.out)["error"]["exit_code"], 2);
+    expect_error(draw({"in.png", "-", "--format", "png", "--recipe", "-"}), 2, {"standard output"});
 }
 
 TEST_F(OutputTest, SizesAreWhatTheySay) {

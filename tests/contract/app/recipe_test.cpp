@@ -63,6 +63,17 @@ TEST_F(RecipeTest, TheRecipeFileIsAStyle) {
     EXPECT_EQ(skeleton("b.json"), skeleton("a.json"));
 }
 
+TEST_F(RecipeTest, AnotherInputIsDrawnAndSaid) {
+    expect_done(draw({"in.png", "a.png"}));
+    write_picture(folder_ / "other.png", scene({60, 60}));
+    const Outcome outcome = run({"replay", "a.png", "other.png", "b.png"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("other.png: is not the picture that a.png was made from"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(picture("b.png").extent(), (Extent{60, 60}));
+    expect_done(run({"replay", "a.png", "other.png", "b.png", "--quiet"}));
+}
+
 TEST_F(RecipeTest, NoRecipeLeavesItOut) {
     for (const std::string format : {"png", "jpg", "tif", "webp", "svg", "pdf", "json"}) {
         expect_done(draw({"in.png", "a." + format, "--no-recipe"}));

@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"first stage", "[style]\nmetaphor=\"ink\"\n[[stage]]\nsources=\"dendrite\"\n",
             "cannot start from the dendrite"},
         Bad{"extends nothing", "[style]\nextends=\"vien\"\n", "did you mean 'vine'?"}),
-    [](const auto& info) {
-        std::string name = info.param.what;
+    [](const auto& row) {
+        std::string name = row.param.what;
         for (char& c : name)
             if (c == ' ') c = '_';
         return name;
