@@ -20,7 +20,7 @@ _dstylize() {
     --set | --detail | --seed | --size | --scale | --quality | --compression | --threads | --max-memory) return ;;
     *)
         if [[ $verb == styles ]]; then
-            words="$styles --fields -h --help"
+            words="$styles --fields --copy -f --force -h --help"
         elif [[ $word == -* ]]; then
             words=$output
             [[ $verb == replay ]] || words+=" $draw"

@@ -6,6 +6,7 @@ complete -c dstylize -n __fish_is_first_arg -a styles -d 'list the styles'
 complete -c dstylize -n __fish_is_first_arg -a replay -d 'make a drawing again'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -fa '(dstylize styles | string split -f 1 " ")'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -l fields -d 'list the fields'
+complete -c dstylize -n '__fish_seen_subcommand_from styles' -l copy -d 'copy a style to a file'
 
 complete -c dstylize -n $draw -s s -l style -ra '(dstylize styles | string split -f 1 " ")' -d 'style or .toml file'
 complete -c dstylize -n $draw -l set -x -d 'change a parameter, KEY=VALUE'

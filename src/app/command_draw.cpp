@@ -71,7 +71,7 @@ void replay(const Arguments& arguments) {
     if (arguments.names.size() > named) request.outputs.emplace_back(arguments.names[named]);
     set_output_options(request, arguments);
     const RunReport report = run_and_report(request, arguments, codec, interrupt);
-    if (!arguments.quiet && report.input_xxh128 != input_xxh128)
+    if (!arguments.quiet && !made.on_paper && report.input_xxh128 != made.input_xxh128)
         std::fputs(fmt::format("dstylize: {}: is not the picture that {} was made from: drawn all the same\n",
                                report.input, old.string())
                        .c_str(),

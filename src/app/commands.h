@@ -25,9 +25,13 @@ void replay(const Arguments& arguments);
 void list_styles(const Arguments& arguments);
 
 /// Runs one request, with progress and reports as the arguments say. Refuses folders as input. Throws Error.
-void run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec, Interrupt& interrupt);
+RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
+                         Interrupt& interrupt);
 CodecOptions codec_options(const Arguments& arguments);
 void refuse_folder(const std::filesystem::path& input);
+
+/// Where a user keeps styles of their own: dstylize/styles in the XDG configuration folder; empty without a home.
+std::filesystem::path user_style_folder();
 
 /// Writes to standard output. Throws Error(cannot_write).
 void print(const std::string& text);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/commands.h"
 #include "core/error.h"
 #include "pipeline/control_text.h"
 
@@ -51,6 +52,7 @@ const char* usage(Parser::Form form) {
                    "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
         case Parser::Form::styles:
             return "dstylize styles [NAME|FILE] [--fields]\n"
+                   "dstylize styles --copy NAME FILE\n"
                    "Lists the styles, or one with every parameter, its range and its value.\n";
     }
     return "";
@@ -77,6 +79,8 @@ Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(argume
         add_run_options();
     } else {
         add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
+        add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to start one's own from"), kStyle);
+        add(app_.add_flag("-f,--force", arguments_.force, "replace FILE"), kStyle);
     }
     add_help_options();
 }
@@ -247,6 +251,7 @@ RunRequest picture_request(const Arguments& a) {
     RunRequest request;
     set_output_options(request, a);
     if (!a.style.empty()) request.style = a.style;
+    request.user_styles = user_style_folder();
     for (const std::string& setting : a.settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos || equals == 0)

@@ -22,7 +22,7 @@ struct Arguments {
     bool force = false, dry_run = false, no_recipe = false, allow_damaged = false;
     bool quiet = false, verbose = false, json = false;
     bool help = false, help_all = false, version = false;
-    bool fields = false;  ///< of `styles`
+    bool fields = false, copy = false;  ///< of `styles`
     // Of `write`.
     std::string font, align, text_place;
     float letter_spacing = 0.04f, line_spacing = 1, text_size = 0;

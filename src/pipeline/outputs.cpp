@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "formats/files.h"
+#include "pipeline/style_file.h"
 
 namespace dstylize {
 namespace {
@@ -105,6 +107,12 @@ std::vector<PlannedOutput> planned_outputs(const std::vector<fs::path>& paths, c
         out.push_back(std::move(output));
     }
     return out;
+}
+
+void copy_style_file(const std::string& name_or_file, const fs::path& user_folder, const fs::path& target, bool force) {
+    const std::string source = style_source(name_or_file, user_folder);
+    check_target(target, {}, force);
+    write_file_atomically(target, std::as_bytes(std::span(source)));
 }
 
 }  // namespace dstylize

@@ -64,8 +64,8 @@ class Run {
     void load_style() {
         std::vector<Setting> settings = request_.settings;
         if (request_.detail > 0) settings.push_back({"lattice.detail", std::to_string(request_.detail)});
-        style_ = request_.style_toml ? parse_style(*request_.style_toml, request_.style, settings)
-                                     : dstylize::load_style(request_.style, settings);
+        style_ = request_.style_toml ? parse_style(*request_.style_toml, request_.style, settings, request_.user_styles)
+                                     : dstylize::load_style(request_.style, settings, request_.user_styles);
         if (request_.show.empty()) return;
         const std::vector<std::string> known = shown_names(style_);
         if (std::find(known.begin(), known.end(), request_.show) != known.end()) return;

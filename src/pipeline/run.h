@@ -29,6 +29,7 @@ struct RunRequest {
 
     std::string style = "vine";             ///< a built-in style or a file
     std::optional<std::string> style_toml;  ///< the style itself; `style` then names it in messages
+    std::filesystem::path user_styles;      ///< folder of the user's own styles; empty: none
     std::vector<Setting> settings;
     int detail = 0;  ///< lattice nodes on the long side; 0: the style's
     std::uint64_t seed = 1;

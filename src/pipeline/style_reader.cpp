@@ -185,7 +185,16 @@ void merge(toml::table& base, toml::table&& over) {
     }
 }
 
-std::string style_text(const std::string& name_or_file, std::string& origin) {
+std::string file_text(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf()))
+        throw Error(ErrorCode::bad_usage, path, "the style file cannot be read", "check the path");
+    return text.str();
+}
+
+std::string style_text(const std::string& name_or_file, const std::filesystem::path& user_folder,
+                       std::string& origin) {
     const bool is_file = name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
     if (!is_file) {
         std::vector<std::string> names;
@@ -196,28 +205,30 @@ std::string style_text(const std::string& name_or_file, std::string& origin) {
             }
             names.emplace_back(style.name);
         }
+        for (const std::string& name : user_style_names(user_folder)) {
+            names.push_back(name);
+            if (name != name_or_file) continue;
+            origin = (user_folder / (name + ".toml")).string();
+            return file_text(origin);
+        }
         const std::string near = nearest_name(name_or_file, names);
         throw Error(ErrorCode::bad_usage, "", "no style is called '" + name_or_file + "'",
                     near.empty() ? fmt::format("use one of {}, or a .toml file", fmt::join(names, ", "))
                                  : "did you mean '" + near + "'?");
     }
     origin = name_or_file;
-    std::ifstream in(name_or_file, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf()))
-        throw Error(ErrorCode::bad_usage, name_or_file, "the style file cannot be read", "check the path");
-    return text.str();
+    return file_text(origin);
 }
 
-toml::table resolved(toml::table own, const std::string& origin, int depth) {
+toml::table resolved(toml::table own, const std::string& origin, const std::filesystem::path& user_folder, int depth) {
     const std::string base_name = own["style"]["extends"].value_or(std::string());
     if (base_name.empty()) return own;
     if (depth >= kMostExtends)
         throw Error(ErrorCode::bad_usage, origin, "styles extend one another in a circle",
                     "break the chain of `extends`");
     std::string base_origin;
-    const std::string text = style_text(base_name, base_origin);
-    toml::table tree = resolved(parsed(text, base_origin), base_origin, depth + 1);
+    const std::string text = style_text(base_name, user_folder, base_origin);
+    toml::table tree = resolved(parsed(text, base_origin), base_origin, user_folder, depth + 1);
     merge(tree, std::move(own));
     return tree;
 }
@@ -282,8 +293,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     return best;
 }
 
-Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings) {
-    toml::table tree = resolved(parsed(text, origin), origin, 0);
+Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings,
+                  const std::filesystem::path& user_folder) {
+    toml::table tree = resolved(parsed(text, origin), origin, user_folder, 0);
     if (tree["recipe"].is_table()) tree.erase("recipe");  // a recipe is a style file too
     for (const Setting& setting : settings) apply(tree, setting);
 
@@ -329,10 +341,26 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
     return style;
 }
 
-Style load_style(const std::string& name_or_file, const std::vector<Setting>& settings) {
+std::vector<std::string> user_style_names(const std::filesystem::path& user_folder) {
+    std::vector<std::string> names;
+    std::error_code none;  // no folder, no styles
+    if (!user_folder.empty())
+        for (const auto& entry : std::filesystem::directory_iterator(user_folder, none))
+            if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string style_source(const std::string& name_or_file, const std::filesystem::path& user_folder) {
     std::string origin;
-    const std::string text = style_text(name_or_file, origin);
-    Style style = parse_style(text, origin, settings);
+    return style_text(name_or_file, user_folder, origin);
+}
+
+Style load_style(const std::string& name_or_file, const std::vector<Setting>& settings,
+                 const std::filesystem::path& user_folder) {
+    std::string origin;
+    const std::string text = style_text(name_or_file, user_folder, origin);
+    Style style = parse_style(text, origin, settings, user_folder);
     if (style.name.empty()) style.name = std::filesystem::path(name_or_file).stem().string();
     return style;
 }
