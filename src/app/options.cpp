@@ -131,7 +131,9 @@ void Parser::add_hand_options() {
         ->type_name("PLACE")
         ->allow_extra_args(false);
     add(app_.add_option("--mask", a.mask, "grow only where this picture is white"), kHand)->type_name("FILE");
-    add(app_.add_option("--importance", a.importance, "multiply the importance by this picture"), kHand)
+    add(app_.add_option("--importance", a.importance,
+                        "multiply the importance by this picture; none: grow without the picture"),
+        kHand)
         ->type_name("FILE");
     add(app_.add_option("--importance-mode", a.importance_mode, "multiply (default) or replace"), kHand, false)
         ->type_name("MODE")
@@ -258,9 +260,10 @@ RunRequest picture_request(const Arguments& a) {
     }
     request.detail = a.detail;
     request.seed = std::uint64_t(a.seed);
-    request.importance.path = a.importance;
+    request.no_picture = a.importance == "none";
+    if (!request.no_picture) request.importance.path = a.importance;
     request.importance_replaces = a.importance_mode == "replace";
-    if (!a.importance_mode.empty() && a.importance.empty())
+    if (!a.importance_mode.empty() && request.importance.path.empty())
         throw usage_error("--importance-mode", "there is no map for it", "give --importance FILE");
     request.mask.path = a.mask;
     request.endpoints.path = a.endpoints;

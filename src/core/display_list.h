@@ -22,6 +22,7 @@ struct VariableStroke {
     std::uint8_t stage = 0;   ///< the stage that grew it
     /// How brightly each point shines in a glowing layer, in [0, 1]; empty: 1 everywhere.
     std::vector<float> emission = {};
+    std::uint8_t layer = 0;  ///< 0 in front, higher ones behind
 };
 
 /// A closed outline (implicitly closed polygon), filled, even-odd never needed.

@@ -23,6 +23,7 @@ constexpr std::array<Step, 16> kSteps{{{1, 0, 5},
 }  // namespace
 
 std::span<const Step> Lattice::steps() const {
+    if (adjacency_) return {};
     const std::span<const Step> all(kSteps);
     switch (neighbourhood_) {
         case Neighbourhood::square4: return all.first(4);

@@ -15,7 +15,8 @@ enum class Purpose : std::uint32_t {
     jitter,
     warp,
     ragged_outline,
-    relief
+    relief,
+    bark
 };
 
 /// Counter-based noise (Philox 4x32-10, Salmon et al. 2011): a value depends on (seed, purpose,

@@ -51,6 +51,8 @@ const Grid<float>& Fields::operator[](std::string_view name) {
     return *cache_[row];
 }
 
+void Fields::replace(std::string_view name, Grid<float> field) { cache_[row_of(name)] = std::move(field); }
+
 const FlowField& Fields::flow() {
     if (!flow_) flow_ = field::flow(*this);
     return *flow_;
@@ -65,6 +67,7 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"stretch_low", "%", "luma percentile that becomes black"}, stretch_low, 0, 49);
     v.number({"stretch_high", "%", "luma percentile that becomes white"}, stretch_high, 51, 100);
     v.flag({"bright", "", "draw the light parts instead of the dark ones"}, bright);
+    v.number({"tone_contrast", "", "share of an S-shaped curve in the tone"}, tone_contrast, 0, 1);
     v.number({"tone_equalise", "", "share of histogram equalisation in the tone"}, tone_equalise, 0, 1);
     v.number({"tone_local", "", "share of the surroundings' tone that is taken away: wide bright skies go dark"},
              tone_local, 0, 1);

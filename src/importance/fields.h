@@ -11,10 +11,24 @@
 
 namespace dstylize {
 
+/// The shape that a drawing keeps to and how far the picture leads inside: the [crown] table. Places and
+/// sizes are shares of the frame's sides.
+struct CrownParameters {
+    bool shaped = false;  ///< else the whole frame
+    float x = 0.5f, y = 0.42f, width = 0.96f, height = 0.8f;
+    float power = 2.6f, lobes = 0.1f, soft = 0.12f;
+    float likeness = 1;
+    float free_side = 0, free_ramp = 0.3f;
+    float free_tone = 0.34f, free_scale = 70;
+
+    void visit(ParameterVisitor& visitor);
+};
+
 /// How the fields are read off a picture: the [fields] table of a style. Lengths in u.
 struct FieldParameters {
     float stretch_low = 2, stretch_high = 98;
     bool bright = false;
+    float tone_contrast = 0;
     float tone_equalise = 0.4f, tone_white = 0.12f, tone_black = 0.90f;
     float tone_local = 0, tone_local_scale = 140;
     float gradient_scale = 1.2f, gradient_wide_scale = 3, gradient_wide_share = 0.8f;
@@ -29,6 +43,7 @@ struct FieldParameters {
     float shape_overflow = 0, shape_ragged = 0, shape_ragged_scale = 12;
     float axis_width = 18, rim_width = 3;
     float calm_scale = 45, calm_detail = 0.13f, calm_tone = 0.45f;
+    CrownParameters crown;  ///< a table of its own in style files
 
     void visit(ParameterVisitor& visitor);
 };
@@ -38,6 +53,7 @@ struct UserMaps {
     std::optional<Grid<float>> importance;
     bool importance_replaces = false;  ///< else the map is multiplied in
     std::optional<Grid<float>> mask;
+    bool no_picture = false;  ///< nothing leads: what can be drawn without a picture is
 };
 
 /// The half width at which the field `room` is 1.
@@ -69,6 +85,8 @@ class Fields {
     /// Nodes where growth in the shape may go: the mask, grown by the overflow and made ragged; parts that
     /// are separate in the mask stay so. Without a mask: of the picture's dark parts.
     const Grid<std::uint8_t>& shape_interior();
+    /// Puts another field in the place of the one called `name`: `lacking` changes as a drawing grows.
+    void replace(std::string_view name, Grid<float> field);
 
     static std::span<const std::string_view> names();
     static std::string_view meaning(std::string_view name);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vec.h"
 #include "imaging/filters.h"
 #include "importance/detail_field_functions.h"
 
@@ -52,6 +53,8 @@ Grid<float> tone(Fields& fields) {
     if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
     transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
+    if (p.tone_contrast > 0)
+        transform(out, [&](float v) { return v + p.tone_contrast * (smoothstep(0.08f, 0.82f, v) - v); });
     if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)
         for (std::size_t n = 0; n < out.size(); ++n) out[n] *= (*map)[n];
     return out;

@@ -3,8 +3,7 @@
 
 #include "core/dendrite.h"
 #include "core/work.h"
-#include "pipeline/controls.h"
-#include "pipeline/style.h"
+#include "pipeline/prepared_picture.h"
 
 namespace dstylize {
 
@@ -24,9 +23,8 @@ struct Grown {
     Grid<float> node_cost;               ///< of a unit of length at each node of the dendrite, 0 elsewhere
 };
 
-/// Runs the stages of a style: weights, endpoints, plan, graft. `passable`: 0 where nothing may grow.
-/// `observer` may be empty.
-Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
-           Extent picture_px, const StageObserver& observer, const Work& work);
+/// Runs the stages of a style, each in its batches: weights, endpoints, plan, graft. `observer` may be empty.
+Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
+           const StageObserver& observer, const Work& work);
 
 }  // namespace dstylize

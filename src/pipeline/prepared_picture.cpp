@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/scattered_lattice.h"
 #include "imaging/filters.h"
 #include "imaging/skeleton.h"
 #include "importance/frame.h"
@@ -37,6 +38,27 @@ float stem_px(const Picture& mask, Extent picture) {
     return stem_width(shape) * float(picture.long_side()) / float(e.long_side());
 }
 
+/// A plane of the picture on the lattice: as large as the frame, or set into it and continued by its rim.
+Grid<float> placed(const Grid<float>& plane, Extent lattice, const LatticeParameters& p) {
+    if (p.picture_scale == 1 && p.picture_x == 0.5f && p.picture_y == 0.5f) return resized(plane, lattice);
+    const auto side = [&](int nodes) { return std::max(1, int(std::lround(double(p.picture_scale) * nodes))); };
+    const Grid<float> inner = resized(plane, {side(lattice.x), side(lattice.y)});
+    const int left = int(std::lround(p.picture_x * float(lattice.x) - 0.5f * float(inner.extent().x)));
+    const int top = int(std::lround(p.picture_y * float(lattice.y) - 0.5f * float(inner.extent().y)));
+    Grid<float> out(lattice);
+    for (int j = 0; j < lattice.y; ++j)
+        for (int i = 0; i < lattice.x; ++i)
+            out(i, j) =
+                inner(std::clamp(i - left, 0, inner.extent().x - 1), std::clamp(j - top, 0, inner.extent().y - 1));
+    return out;
+}
+
+Lattice laid_lattice(const Grid<std::uint8_t>& passable, const LatticeParameters& p, std::uint64_t seed,
+                     const Work& work) {
+    if (p.kind == LatticeParameters::Kind::regular) return Lattice(passable.extent(), p.neighbourhood);
+    return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), work);
+}
+
 }  // namespace
 
 Extent lattice_extent(Extent picture, int detail) {
@@ -58,19 +80,23 @@ LatticeScale lattice_scale(Extent picture, const LatticeParameters& parameters, 
     return {lattice, u_px * float(lattice.long_side()) / side};
 }
 
-PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls) {
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
+                                 const Work& work) {
     const LatticeScale scale =
         lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
     UserMaps maps;
-    if (controls.importance) maps.importance = resized(luma_plane(*controls.importance), scale.extent);
+    if (controls.importance) maps.importance = placed(luma_plane(*controls.importance), scale.extent, style.lattice);
     maps.importance_replaces = controls.importance_replaces;
+    maps.no_picture = controls.no_picture;
     if (controls.mask) maps.mask = resized(luma_plane(*controls.mask), scale.extent);
     Grid<float> luma = luma_plane(picture);
     paint_over_frame(luma);
-    PreparedPicture out{
-        Fields(resized(luma, scale.extent), style.fields, std::move(maps), controls.seed, scale.nodes_per_u), {}};
-    out.passable = passable_nodes(picture, style, controls, out.fields);
-    return out;
+    if (controls.no_picture) luma = Grid<float>(luma.extent(), 0.5f);
+    Fields fields(placed(luma, scale.extent, style.lattice), style.fields, std::move(maps), controls.seed,
+                  scale.nodes_per_u);
+    Grid<std::uint8_t> passable = passable_nodes(picture, style, controls, fields);
+    Lattice lattice = laid_lattice(passable, style.lattice, controls.seed, work);
+    return {std::move(fields), std::move(lattice), std::move(passable)};
 }
 
 }  // namespace dstylize

@@ -63,9 +63,10 @@ class RecipeReader {
     }
     bool importance_replaces() const {
         const std::string mode = text("importance_mode");
-        if (!mode.empty() && mode != "multiply" && mode != "replace") refuse("importance_mode");
+        if (!mode.empty() && mode != "multiply" && mode != "replace" && mode != "none") refuse("importance_mode");
         return mode == "replace";
     }
+    bool no_picture() const { return text("importance_mode") == "none"; }
 
     [[noreturn]] void refuse(std::string_view key) const {
         throw Error(ErrorCode::cannot_read, origin_, fmt::format("its recipe is damaged (recipe.{})", key),
@@ -136,6 +137,7 @@ std::string recipe_toml(const Recipe& recipe) {
     };
     add_mark("importance", recipe.importance);
     if (recipe.importance) out.insert("importance_mode", recipe.importance_replaces ? "replace" : "multiply");
+    if (recipe.no_picture) out.insert("importance_mode", "none");
     add_mark("mask", recipe.mask);
     add_mark("endpoints", recipe.endpoints);
     add_mark("background_file", recipe.background_file);
@@ -171,6 +173,7 @@ Recipe parse_recipe(std::string_view text, const std::string& origin) {
     out.input = reader.mark("input").value_or(FileMark{});
     out.importance = reader.mark("importance");
     out.importance_replaces = reader.importance_replaces();
+    out.no_picture = reader.no_picture();
     out.mask = reader.mark("mask");
     out.endpoints = reader.mark("endpoints");
     out.background_file = reader.mark("background_file");

@@ -24,6 +24,7 @@ struct Recipe {
     FileMark input;  ///< no name: plain paper
     std::optional<FileMark> importance, mask, endpoints, background_file;
     bool importance_replaces = false;
+    bool no_picture = false;
     std::vector<std::string> roots;  ///< as --root takes them
     std::string background;          ///< as --background takes it; empty: the style's paper, or background_file
     std::optional<Writing> writing;  ///< words that were the mask

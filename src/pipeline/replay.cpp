@@ -48,6 +48,7 @@ Replay replay_of(const fs::path& old, const fs::path& input, PictureCodec& codec
     request.seed = recipe.seed;
     request.importance = found(recipe.importance);
     request.importance_replaces = recipe.importance_replaces;
+    request.no_picture = recipe.no_picture;
     request.mask = found(recipe.mask);
     request.endpoints = found(recipe.endpoints);
     for (const std::string& root : recipe.roots) request.roots.push_back(parsed_root(root));

@@ -51,11 +51,12 @@ class PlaceScore {
         : place_(place),
           u_(fields.u()),
           inset_(parameters.inset * u_),
+          centring_(parameters.centring),
           interest_(blurred(fields[place == Place::darkest ? "darkness" : std::string_view(parameters.interest)],
                             (place == Place::darkest ? 6 : 3) * u_)) {}
 
     float operator()(const Box& box, int i, int j) const {
-        constexpr float kCentring = 0.35f, kBand_u = 3;
+        constexpr float kBand_u = 3;
         const float width = float(box.right - box.left) + 1, height = float(box.bottom - box.top) + 1;
         const float x = 2 * (float(i - box.left) + 0.5f) / width - 1;  // -1 … 1 across the part
         const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
@@ -67,13 +68,13 @@ class PlaceScore {
         const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
         const float wanted = std::min(inset_, height / 4);
         if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
-        return interest - kCentring * x * x;
+        return interest - centring_ * x * x;
     }
     static constexpr float kNever = -1e9f;
 
   private:
     Place place_;
-    float u_, inset_;
+    float u_, inset_, centring_;
     Grid<float> interest_;
 };
 
@@ -133,7 +134,8 @@ NodeId passable_near(const WeightedLattice& graph, NodeId start, float radius) {
 PassableParts passable_parts(const WeightedLattice& graph) {
     const Lattice& lattice = graph.lattice;
     PassableParts out{Grid<std::uint32_t>(lattice.extent(), PassableParts::kNone), {}};
-    const int steps = std::min(8, int(lattice.steps().size()));  // a knight's move never joins what these do not
+    // A knight's move never joins what the other steps do not.
+    const int regular_steps = std::min(8, int(lattice.steps().size()));
     std::vector<NodeId> open;
     for (std::uint32_t n = 0; n < lattice.node_count(); ++n) {
         if (!graph.passable(NodeId{n}) || out.part[n] != PassableParts::kNone) continue;
@@ -145,6 +147,7 @@ PassableParts passable_parts(const WeightedLattice& graph) {
             const NodeId node = open.back();
             open.pop_back();
             ++out.size[part];
+            const int steps = lattice.adjacency() ? graph.degree(node) : regular_steps;
             for (int s = 0; s < steps; ++s) {
                 const NodeId next = graph.neighbour(node, s);
                 if (next == kNoNode || !graph.passable(next) || out.part[index(next)] != PassableParts::kNone) continue;

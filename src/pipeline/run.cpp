@@ -123,6 +123,7 @@ class Run {
         controls_.seed = request_.seed;
         controls_.roots = request_.roots;
         controls_.importance_replaces = request_.importance_replaces;
+        controls_.no_picture = request_.no_picture;
         if (!request_.importance.path.empty()) controls_.importance = picture(request_.importance, recipe_.importance);
         if (!request_.endpoints.path.empty()) read_endpoints();
         if (request_.background.kind == Background::Kind::file)
@@ -178,6 +179,7 @@ class Run {
         recipe_.program = fmt::format("dstylize {}", version());
         recipe_.seed = request_.seed;
         recipe_.importance_replaces = request_.importance_replaces;
+        recipe_.no_picture = request_.no_picture;
         for (const RootChoice& root : request_.roots) recipe_.roots.push_back(root_text(root));
         switch (request_.background.kind) {
             case Background::Kind::input: recipe_.background = "input"; break;

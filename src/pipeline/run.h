@@ -37,6 +37,7 @@ struct RunRequest {
     std::optional<Writing> writing;             ///< words that are the mask
     AuxiliaryFile importance, mask, endpoints;  ///< empty path: none
     bool importance_replaces = false;
+    bool no_picture = false;  ///< grow without being led by the picture
     std::vector<RootChoice> roots;
     Background background;
     std::string background_xxh128;  ///< as in AuxiliaryFile, of background.file

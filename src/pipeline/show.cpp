@@ -142,7 +142,7 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
                     fmt::format("use one of {}", fmt::join(known, ", ")));
-    PreparedPicture base = prepared_picture(picture, style, controls);
+    PreparedPicture base = prepared_picture(picture, style, controls, work);
     if (name == "flow") return flow_picture(base.fields.flow());
     const std::string view = name.substr(0, name.find(':'));
     const std::string stage_name = view == name ? style.stages.back().name : name.substr(view.size() + 1);
@@ -153,9 +153,9 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     const auto observe = [&](const StageView& stage) {
         if (stage.stage.name == stage_name && view != "tree") out = stage_picture(view, stage);
     };
-    const Grown grown = grow(base.fields, base.passable, style, controls, picture.extent(), observe, work);
+    const Grown grown = grow(base, style, controls, picture.extent(), observe, work);
     if (out) return *out;
-    return tree_picture(Lattice(base.fields.extent(), style.lattice.neighbourhood), grown.dendrite);
+    return tree_picture(base.lattice, grown.dendrite);
 }
 
 }  // namespace dstylize

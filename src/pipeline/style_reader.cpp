@@ -321,8 +321,9 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
             reader.reject_unknown();
             if (!names.insert(stage.name).second)
                 top.fail(&node, "two stages are called '" + stage.name + "'", "rename one");
-            for (const std::string& field : {stage.endpoints.density, stage.endpoints.priority})
-                if (const auto all = Fields::names(); std::find(all.begin(), all.end(), field) == all.end())
+            for (const std::string& field : {stage.endpoints.density, stage.endpoints.priority, stage.path_inside})
+                if (const auto all = Fields::names();
+                    !field.empty() && std::find(all.begin(), all.end(), field) == all.end())
                     top.fail(&node, "no field is called '" + field + "'",
                              "did you mean '" + nearest_name(field, {all.begin(), all.end()}) + "'?");
             style.stages.push_back(std::move(stage));

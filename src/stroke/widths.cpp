@@ -36,6 +36,7 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"field", "", "weight of a width that follows `fields`"}, field, 0, 1);
     v.number({"path", "", "weight of path width V = exp(-alpha (c T)^2): falls with the way's cost from the root"},
              path, 0, 1);
+    v.number({"piped", "", "weight of pipe width: every twig runs down to the root"}, piped, 0, 1);
     v.number({"narrowest", "u", "narrowest stroke"}, narrowest, 0.05f, 20);
     v.number({"widest", "u", "widest stroke, the trunk apart"}, widest, 0.1f, 60);
     v.number({"constant_width", "u", "the constant width"}, constant_width, 0.05f, 60);
@@ -62,6 +63,10 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.number({"window", "u", "half length of the rolling mean along a branch"}, window, 0, 100);
     v.number({"tip", "u", "length over which a tip runs out"}, tip, 0, 200);
     v.number({"tip_width", "u", "width at the very tip"}, tip_width, 0, 10);
+    v.number({"swing", "", "how much wider twigs are where ink is wanted, and thinner where not"}, swing, 0, 1);
+    v.number({"wanted_gain", "", "the field `lacking` counts the wanted ink so often, as strokes overlap"}, wanted_gain,
+             0.1f, 4);
+    v.section("pipe", "the pipe rule", [this](ParameterVisitor& inner) { pipe.visit(inner); });
 }
 
 Widths::Widths(const Dendrite& dendrite, const Branching& branching, const WidthParameters& parameters,
@@ -82,6 +87,7 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
         density = line_density(dendrite, target_ink_.extent(), kDensityWindow_u * u);
         wanted = blurred(target_ink_, kDensityWindow_u / 2 * u);
     }
+    if (p.piped > 0) pipe_ = pipe_widths(dendrite, branching, p.pipe, u);
     for (std::uint32_t v = 0; v < raw_.size(); ++v) {
         float tone_width = 0;
         if (p.tone > 0) {
@@ -121,8 +127,8 @@ float Widths::raw_width(std::uint32_t v, float tone_width) const {
     const WidthParameters& p = parameters_;
     const float narrow = p.narrowest * u_, wide = p.widest * u_;
     const bool by_field = p.field > 0 && fields_.sum, by_path = !path_share_.empty();
-    const float total =
-        p.tone + p.importance + p.branch + p.tips + p.constant + (by_field ? p.field : 0) + (by_path ? p.path : 0);
+    const float total = p.tone + p.importance + p.branch + p.tips + p.constant + (by_field ? p.field : 0) +
+                        (by_path ? p.path : 0) + p.piped;
     if (total <= 0) return narrow;
     const auto between = [&](float share) { return narrow + (wide - narrow) * share; };
     float sum = p.tone * tone_width + p.constant * p.constant_width * u_;
@@ -136,10 +142,22 @@ float Widths::raw_width(std::uint32_t v, float tone_width) const {
         sum += p.field * between(std::pow(std::clamp(sample(*fields_.sum, dendrite_.position_lattice[v]), 0.0f, 1.0f),
                                           p.field_gamma));
     if (by_path) sum += p.path * between(path_share_[v]);
+    if (p.piped > 0) sum += p.piped * pipe_[v];
+    float width = sum / total;
+    if (p.swing > 0) width *= swing(v, width);
     float widest = wide * 1.3f;
     if (fields_.half_width && p.room_share > 0)
         widest = std::clamp(p.room_share * sample(*fields_.half_width, dendrite_.position_lattice[v]), narrow, widest);
-    return std::clamp(sum / total, narrow, widest);
+    return std::clamp(width, narrow, widest);
+}
+
+/// Only twigs obey the picture; trunk and boughs stay a tree's.
+float Widths::swing(std::uint32_t v, float width) const {
+    constexpr float kTwig_u = 5.3f, kShare = 0.9f, kLeast = 0.5f;
+    const Vec2f at = dendrite_.position_lattice[v];
+    const float leads = fields_.guided ? sample(*fields_.guided, at) : 1;
+    const float balance = leads * (2 * sample(target_ink_, at) - 1);
+    return std::max(kLeast, 1 + kShare * parameters_.swing * balance * std::exp(-width / (kTwig_u * u_)));
 }
 
 void Widths::correct(const Grid<float>& target, const Grid<float>& drawn) {

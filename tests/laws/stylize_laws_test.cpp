@@ -154,5 +154,58 @@ TEST(Vine, TheDrawnToneFollowsThePicture) {
     EXPECT_GT(wanted(40, 200) - wanted(110, 130), 0.5f);
 }
 
+/// Correlation of a drawing's darkness with the picture's where the picture is asked to lead.
+double resemblance(const Picture& picture, const Drawing& d) {
+    const float sigma = 0.02f * float(picture.extent().long_side());
+    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {picture.extent()}, {})), sigma);
+    const Grid<float> wanted = blurred(luma_plane(picture), sigma);
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    const Extent e = picture.extent();
+    for (int j = e.y / 5; j < e.y * 7 / 10; ++j)
+        for (int i = e.x * 2 / 5; i < e.x * 4 / 5; ++i) {
+            const double a = wanted(i, j), b = drawn(i, j);
+            n += 1, x += a, y += b, xx += a * a, yy += b * b, xy += a * b;
+        }
+    return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
+}
+
+TEST(Pareidolia, TheMoreLikenessTheMoreTheDrawingResemblesThePicture) {
+    const Picture picture = test::scene({300, 300});
+    double before = -1;
+    for (const char* likeness : {"0", "0.5", "1"}) {
+        const Style s = load_style("pareidolia", {{"lattice.detail", "300"}, {"crown.likeness", likeness},
+                                                  {"lattice.picture_scale", "1"}, {"choice.growths", "1"}});
+        const double now = resemblance(picture, stylize(picture, s, {}));
+        EXPECT_GT(now, before + 0.1) << likeness;
+        before = now;
+    }
+    EXPECT_GT(before, 0.8);
+}
+
+TEST(Tree, WithoutAPictureItStillGrowsAndKnowsNothingOfIt) {
+    Controls controls;
+    controls.no_picture = true;
+    const Style s = load_style("tree", {{"lattice.detail", "200"}});
+    const Drawing one = stylize(test::scene({160, 160}), s, controls);
+    const Drawing other = stylize(test::flat({160, 160}, {200, 10, 10, 255}), s, controls);
+    EXPECT_GT(one.strokes, 100u);
+    EXPECT_EQ(one.dendrite.node, other.dendrite.node);
+}
+
+TEST(Tree, WindBendsIt) {
+    const auto lean = [](const char* wind) {
+        Controls controls;
+        controls.no_picture = true;
+        const Drawing d = stylize(test::flat({160, 160}, {}), load_style("tree", {{"lattice.detail", "200"},
+                                  {"stage.twigs.wind", wind}, {"stage.limbs.wind", wind}}), controls);
+        double sum = 0;
+        for (std::uint32_t v = 0; v < d.dendrite.size(); ++v)
+            if (!d.dendrite.is_root(v)) sum += double(d.dendrite.position_lattice[v].x - d.dendrite.position_lattice[d.dendrite.parent[v]].x);
+        return sum / double(d.dendrite.size());
+    };
+    EXPECT_GT(lean("1.5"), lean("0") + 0.02);
+    EXPECT_LT(lean("-1.5"), lean("0") - 0.02);
+}
+
 }  // namespace
 }  // namespace dstylize
