@@ -1,6 +1,6 @@
 // Lichen writing: the dendrite as a foliose thallus on stone. Lobes swell and turn pale towards their tips,
 // old parts fill in between them, brown cups sit here and there; relief, shadow and the stone's own grain come
-// from the layer effect Relief. Long & Mould 2007, fig. 13; lichens after Desbenoit et al. 2004.
+// from the layer effect Relief. Xu & Mould 2007, fig. 13; lichens after Desbenoit et al. 2004.
 #include <algorithm>
 #include <array>
 #include <cmath>

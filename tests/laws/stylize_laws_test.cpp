@@ -173,8 +173,10 @@ TEST(Pareidolia, TheMoreLikenessTheMoreTheDrawingResemblesThePicture) {
     const Picture picture = test::scene({300, 300});
     double before = -1;
     for (const char* likeness : {"0", "0.5", "1"}) {
-        const Style s = load_style("pareidolia", {{"lattice.detail", "300"}, {"crown.likeness", likeness},
-                                                  {"lattice.picture_scale", "1"}, {"choice.growths", "1"}});
+        const Style s = load_style("pareidolia", {{"lattice.detail", "300"},
+                                                  {"crown.likeness", likeness},
+                                                  {"lattice.picture_scale", "1"},
+                                                  {"choice.growths", "1"}});
         const double now = resemblance(picture, stylize(picture, s, {}));
         EXPECT_GT(now, before + 0.1) << likeness;
         before = now;
@@ -196,11 +198,14 @@ TEST(Tree, WindBendsIt) {
     const auto lean = [](const char* wind) {
         Controls controls;
         controls.no_picture = true;
-        const Drawing d = stylize(test::flat({160, 160}, {}), load_style("tree", {{"lattice.detail", "200"},
-                                  {"stage.twigs.wind", wind}, {"stage.limbs.wind", wind}}), controls);
+        const Drawing d = stylize(
+            test::flat({160, 160}, {}),
+            load_style("tree", {{"lattice.detail", "200"}, {"stage.twigs.wind", wind}, {"stage.limbs.wind", wind}}),
+            controls);
         double sum = 0;
         for (std::uint32_t v = 0; v < d.dendrite.size(); ++v)
-            if (!d.dendrite.is_root(v)) sum += double(d.dendrite.position_lattice[v].x - d.dendrite.position_lattice[d.dendrite.parent[v]].x);
+            if (!d.dendrite.is_root(v))
+                sum += double(d.dendrite.position_lattice[v].x - d.dendrite.position_lattice[d.dendrite.parent[v]].x);
         return sum / double(d.dendrite.size());
     };
     EXPECT_GT(lean("1.5"), lean("0") + 0.02);
