@@ -22,4 +22,8 @@ install(FILES ${PROJECT_BINARY_DIR}/dstylize-config.cmake ${PROJECT_BINARY_DIR}/
   DESTINATION ${package_dir})
 
 install(DIRECTORY filters/ DESTINATION ${CMAKE_INSTALL_DATADIR}/dstylize/styles FILES_MATCHING PATTERN *.toml)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES docs/dstylize.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES completions/dstylize.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME dstylize)
+install(FILES completions/_dstylize DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+install(FILES completions/dstylize.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)

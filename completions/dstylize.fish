@@ -1,11 +1,20 @@
 # Completion of dstylize for fish.
-set -l draw 'not __fish_seen_subcommand_from styles replay'
-set -l runs 'not __fish_seen_subcommand_from styles'
+set --local draw 'not __fish_seen_subcommand_from styles replay'
+set --local runs 'not __fish_seen_subcommand_from styles'
 
 complete -c dstylize -n __fish_is_first_arg -a styles -d 'list the styles'
 complete -c dstylize -n __fish_is_first_arg -a replay -d 'make a drawing again'
+complete -c dstylize -n __fish_is_first_arg -a write -d 'write words with branches'
+set --local writes '__fish_seen_subcommand_from write'
+complete -c dstylize -n $writes -l font -xa '(fc-list : family | string split -f 1 ,)' -d 'any installed font'
+complete -c dstylize -n $writes -l text-size -x -d 'font size, of the height'
+complete -c dstylize -n $writes -l place -x -d 'where the middle of the words lies'
+complete -c dstylize -n $writes -l align -xa 'left centre right' -d 'of several lines'
+complete -c dstylize -n $writes -l letter-spacing -x -d 'added between letters, in em'
+complete -c dstylize -n $writes -l line-spacing -x -d '1 is the own of the font'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -fa '(dstylize styles | string split -f 1 " ")'
 complete -c dstylize -n '__fish_seen_subcommand_from styles' -l fields -d 'list the fields'
+complete -c dstylize -n '__fish_seen_subcommand_from styles' -l copy -d 'copy a style to a file'
 
 complete -c dstylize -n $draw -s s -l style -ra '(dstylize styles | string split -f 1 " ")' -d 'style or .toml file'
 complete -c dstylize -n $draw -l set -x -d 'change a parameter, KEY=VALUE'

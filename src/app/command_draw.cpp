@@ -11,7 +11,6 @@
 #include "pipeline/replay.h"
 
 namespace dstylize::app {
-namespace {
 
 CodecOptions codec_options(const Arguments& arguments) {
     CodecOptions options;
@@ -26,7 +25,8 @@ void refuse_folder(const std::filesystem::path& input) {
         throw Error(ErrorCode::bad_usage, input.string(), "is a folder", "give one picture; folders are not drawn yet");
 }
 
-void run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec, Interrupt& interrupt) {
+RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
+                         Interrupt& interrupt) {
     Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
     Work work;
     work.stop = interrupt.token();
@@ -35,16 +35,15 @@ void run_and_report(const RunRequest& request, const Arguments& arguments, Pictu
         interrupt.set_writing(step == "writing");
         progress.begin(step, share_done);
     };
-    const RunReport report = run(request, codec, work);
+    RunReport report = run(request, codec, work);
     progress.finish();
     if (arguments.verbose) std::fputs(verbose_report(report, progress).c_str(), stderr);
     if (arguments.json)
         print(json_report(report, progress));
     else if (request.dry_run)
         print(dry_run_report(report));
+    return report;
 }
-
-}  // namespace
 
 void draw(const Arguments& arguments) {
     const RunRequest request = draw_request(arguments);
@@ -63,10 +62,20 @@ void replay(const Arguments& arguments) {
     refuse_folder(input);
     Interrupt interrupt;
     PictureCodec codec(codec_options(arguments));
-    auto [request, input_xxh128] = replay_of(old, input, codec, arguments.max_memory);
-    if (arguments.names.size() > 2) request.outputs.emplace_back(arguments.names[2]);
+    Replay made = replay_of(old, input, codec, arguments.max_memory);
+    RunRequest& request = made.request;
+    // What was written on paper can be made again on paper, with no picture between OLD and OUT.
+    const bool on_paper = made.on_paper && arguments.names.size() == 2 && arguments.outputs.empty();
+    if (on_paper) request.input.clear();
+    const std::size_t named = on_paper ? 1 : 2;
+    if (arguments.names.size() > named) request.outputs.emplace_back(arguments.names[named]);
     set_output_options(request, arguments);
-    run_and_report(request, arguments, codec, interrupt);
+    const RunReport report = run_and_report(request, arguments, codec, interrupt);
+    if (!arguments.quiet && !made.on_paper && report.input_xxh128 != made.input_xxh128)
+        std::fputs(fmt::format("dstylize: {}: is not the picture that {} was made from: drawn all the same\n",
+                               report.input, old.string())
+                       .c_str(),
+                   stderr);
 }
 
 }  // namespace dstylize::app

@@ -53,6 +53,7 @@ void run_form(Parser::Form form, std::vector<std::string> words, Arguments& argu
         return print(parser.help(arguments.help_all || form != Parser::Form::draw));
     switch (form) {
         case Parser::Form::draw: return draw(arguments);
+        case Parser::Form::write: return write(arguments);
         case Parser::Form::replay: return replay(arguments);
         case Parser::Form::styles: return list_styles(arguments);
     }
@@ -61,6 +62,7 @@ void run_form(Parser::Form form, std::vector<std::string> words, Arguments& argu
 int run_program(std::vector<std::string> words) {
     Parser::Form form = Parser::Form::draw;
     if (!words.empty() && words[0] == "styles") form = Parser::Form::styles;
+    if (!words.empty() && words[0] == "write") form = Parser::Form::write;
     if (!words.empty() && words[0] == "replay") form = Parser::Form::replay;
     if (form != Parser::Form::draw) words.erase(words.begin());
     Arguments arguments;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "app/commands.h"
 #include "core/error.h"
 #include "pipeline/control_text.h"
 
@@ -12,6 +13,7 @@ namespace dstylize::app {
 namespace {
 
 constexpr const char* kStyle = "Style";
+constexpr const char* kText = "Words";
 constexpr const char* kHand = "By hand";
 constexpr const char* kOutput = "Output";
 constexpr const char* kRun = "Run";
@@ -37,13 +39,20 @@ const char* usage(Parser::Form form) {
     switch (form) {
         case Parser::Form::draw:
             return "dstylize IN OUT [options]       redraw a picture as one branching structure\n"
+                   "dstylize write TEXT [IN] OUT    write words with branches, on a picture or on paper\n"
                    "dstylize replay OLD IN OUT      make the drawing OLD again, say at another size\n"
                    "dstylize styles [NAME]          list the styles, or one with all its parameters\n";
+        case Parser::Form::write:
+            return "dstylize write TEXT OUT [options]              words on paper\n"
+                   "dstylize write TEXT IN OUT [options]           words on the picture IN\n"
+                   "dstylize write --mask FILE [IN] OUT [options]  letters or shapes that are white in FILE\n"
+                   "Grows a dendrite in every connected part of the letters. In TEXT, \\n begins a new line.\n";
         case Parser::Form::replay:
             return "dstylize replay OLD IN OUT [options]\n"
                    "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
         case Parser::Form::styles:
             return "dstylize styles [NAME|FILE] [--fields]\n"
+                   "dstylize styles --copy NAME FILE\n"
                    "Lists the styles, or one with every parameter, its range and its value.\n";
     }
     return "";
@@ -60,7 +69,8 @@ Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(argume
     app_.set_help_flag();
     app_.allow_extras();
     app_.add_option("names", arguments_.names);
-    if (form == Form::draw) {
+    if (form == Form::write) add_text_options();
+    if (form == Form::draw || form == Form::write) {
         add_style_options();
         add_hand_options();
     }
@@ -69,6 +79,8 @@ Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(argume
         add_run_options();
     } else {
         add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
+        add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to start one's own from"), kStyle);
+        add(app_.add_flag("-f,--force", arguments_.force, "replace FILE"), kStyle);
     }
     add_help_options();
 }
@@ -94,13 +106,34 @@ void Parser::add_style_options() {
         ->check(CLI::Range(std::int64_t(0), std::numeric_limits<std::int64_t>::max()).description(""));
 }
 
+void Parser::add_text_options() {
+    Arguments& a = arguments_;
+    add(app_.add_option("--font", a.font, "any installed font; default DejaVu Sans Bold"), kText)->type_name("NAME");
+    add(app_.add_option("--text-size", a.text_size, "font size, of the picture's height; default: fits"), kText)
+        ->type_name("X")
+        ->check(CLI::Range(0.01f, Writing::kMostSize).description(""));
+    add(app_.add_option("--place", a.text_place, "where the words' middle lies; default 0.5,0.5"), kText)
+        ->type_name("X,Y");
+    add(app_.add_option("--align", a.align, "of several lines: left, centre or right"), kText)
+        ->type_name("SIDE")
+        ->check(CLI::IsMember({"left", "centre", "right"}).description(""));
+    add(app_.add_option("--letter-spacing", a.letter_spacing, "added between letters, in em; default 0.04"), kText)
+        ->type_name("X")
+        ->check(CLI::Range(Writing::kLeastSpacing, Writing::kMostSpacing).description(""));
+    add(app_.add_option("--line-spacing", a.line_spacing, "1: the font's own"), kText)
+        ->type_name("X")
+        ->check(CLI::Range(Writing::kLeastLines, Writing::kMostLines).description(""));
+}
+
 void Parser::add_hand_options() {
     Arguments& a = arguments_;
     add(app_.add_option("--root", a.roots, "where it grows from: x,y or bottom … darkest"), kHand)
         ->type_name("PLACE")
         ->allow_extra_args(false);
     add(app_.add_option("--mask", a.mask, "grow only where this picture is white"), kHand)->type_name("FILE");
-    add(app_.add_option("--importance", a.importance, "multiply the importance by this picture"), kHand)
+    add(app_.add_option("--importance", a.importance,
+                        "multiply the importance by this picture; none: grow without the picture"),
+        kHand)
         ->type_name("FILE");
     add(app_.add_option("--importance-mode", a.importance_mode, "multiply (default) or replace"), kHand, false)
         ->type_name("MODE")
@@ -195,8 +228,10 @@ std::string Parser::help(bool all) {
 
 void set_output_options(RunRequest& request, const Arguments& a) {
     for (const std::string& output : a.outputs) request.outputs.emplace_back(output);
-    if (a.json && std::find(request.outputs.begin(), request.outputs.end(), "-") != request.outputs.end())
-        throw usage_error("--json", "the report and the output would share standard output", "write to a file");
+    const auto writers = std::count(request.outputs.begin(), request.outputs.end(), "-") + (a.recipe_file == "-") +
+                         (a.json || a.dry_run);
+    if (writers > 1)
+        throw usage_error("", "more than one thing would be written to standard output", "write all but one to files");
     request.format = a.format;
     if (!a.size.empty()) request.size = parsed_output_size(a.size);
     if (a.scale > 0) request.size = {OutputSize::Kind::scale, a.scale, OutputSize::kDefaultDpi, {}, 0, 0};
@@ -209,15 +244,14 @@ void set_output_options(RunRequest& request, const Arguments& a) {
     request.max_memory_bytes = a.max_memory;
 }
 
-RunRequest draw_request(const Arguments& a) {
+namespace {
+
+/// What `draw` and `write` share.
+RunRequest picture_request(const Arguments& a) {
     RunRequest request;
-    if (a.names.empty()) throw usage_error("", "no picture is named", "write dstylize IN OUT, or see dstylize --help");
-    if (a.names.size() > 2)
-        throw usage_error(a.names[2], "is one name too many", "write dstylize IN OUT; further outputs with -o");
-    request.input = a.names[0];
-    if (a.names.size() > 1) request.outputs.emplace_back(a.names[1]);
     set_output_options(request, a);
-    request.style = a.style;
+    if (!a.style.empty()) request.style = a.style;
+    request.user_styles = user_style_folder();
     for (const std::string& setting : a.settings) {
         const std::size_t equals = setting.find('=');
         if (equals == std::string::npos || equals == 0)
@@ -226,15 +260,73 @@ RunRequest draw_request(const Arguments& a) {
     }
     request.detail = a.detail;
     request.seed = std::uint64_t(a.seed);
-    request.importance.path = a.importance;
+    request.no_picture = a.importance == "none";
+    if (!request.no_picture) request.importance.path = a.importance;
     request.importance_replaces = a.importance_mode == "replace";
-    if (!a.importance_mode.empty() && a.importance.empty())
+    if (!a.importance_mode.empty() && request.importance.path.empty())
         throw usage_error("--importance-mode", "there is no map for it", "give --importance FILE");
     request.mask.path = a.mask;
     request.endpoints.path = a.endpoints;
     for (const std::string& root : a.roots) request.roots.push_back(parsed_root(root));
     if (!a.background.empty()) request.background = parsed_background(a.background);
     request.show = a.show;
+    return request;
+}
+
+/// Shells pass \\n as two characters.
+std::string with_line_breaks(std::string text) {
+    for (std::size_t at; (at = text.find("\\n")) != std::string::npos;) text.replace(at, 2, "\n");
+    return text;
+}
+
+Writing writing(const Arguments& a) {
+    Writing out;
+    out.lettering.text = with_line_breaks(a.names[0]);
+    if (!a.font.empty()) out.lettering.font = a.font;
+    if (!a.align.empty())
+        out.lettering.align = a.align == "left"    ? Lettering::Align::left
+                              : a.align == "right" ? Lettering::Align::right
+                                                   : Lettering::Align::centre;
+    out.lettering.letter_spacing = a.letter_spacing;
+    out.lettering.line_spacing = a.line_spacing;
+    out.size = a.text_size;
+    if (a.text_place.empty()) return out;
+    const RootChoice place = parsed_root(a.text_place);
+    if (place.place)
+        throw usage_error("--place " + a.text_place, "is not a point",
+                          "write x,y: fractions with a decimal point, or pixels");
+    out.x = place.x;
+    out.y = place.y;
+    return out;
+}
+
+}  // namespace
+
+RunRequest draw_request(const Arguments& a) {
+    if (a.names.empty()) throw usage_error("", "no picture is named", "write dstylize IN OUT, or see dstylize --help");
+    if (a.names.size() > 2)
+        throw usage_error(a.names[2], "is one name too many", "write dstylize IN OUT; further outputs with -o");
+    RunRequest request = picture_request(a);
+    request.input = a.names[0];
+    if (a.names.size() > 1) request.outputs.insert(request.outputs.begin(), a.names[1]);
+    return request;
+}
+
+RunRequest write_request(const Arguments& a) {
+    const std::size_t words = a.mask.empty() ? 1 : 0, most = words + 2;
+    const std::string form = words ? "write dstylize write TEXT [IN] OUT" : "write dstylize write --mask FILE [IN] OUT";
+    if (a.names.size() < words) throw usage_error("write", "no words are given", form);
+    if (a.names.size() > most) throw usage_error(a.names[most], "is one name too many", form);
+    // The last name is the output unless there are others.
+    const std::size_t files = a.names.size() - words;
+    if (files + a.outputs.size() == 0) throw usage_error("write", "no output is named", form);
+    RunRequest request = picture_request(a);
+    if (words) request.writing = writing(a);
+    if (files > 0) request.outputs.insert(request.outputs.begin(), a.names.back());
+    if (files > 1) request.input = a.names[words];
+    const bool on_picture = files > 1;
+    if (a.style.empty()) request.style = on_picture ? "lichen-letters" : "letters";
+    if (a.background.empty() && on_picture) request.background.kind = Background::Kind::input;
     return request;
 }
 

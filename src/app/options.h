@@ -13,7 +13,7 @@ namespace dstylize::app {
 struct Arguments {
     std::vector<std::string> names;  ///< IN and OUT, or OLD, IN and OUT
     std::vector<std::string> outputs, settings, roots;
-    std::string style = "vine", importance, importance_mode, mask, endpoints, background, show;
+    std::string style, importance, importance_mode, mask, endpoints, background, show;
     std::string size, format, recipe_file;
     double scale = 0;
     int detail = 0, threads = 0, quality = 92, compression = 1;
@@ -22,13 +22,16 @@ struct Arguments {
     bool force = false, dry_run = false, no_recipe = false, allow_damaged = false;
     bool quiet = false, verbose = false, json = false;
     bool help = false, help_all = false, version = false;
-    bool fields = false;  ///< of `styles`
+    bool fields = false, copy = false;  ///< of `styles`
+    // Of `write`.
+    std::string font, align, text_place;
+    float letter_spacing = 0.04f, line_spacing = 1, text_size = 0;
 };
 
 /// The parser of one form of the command line, which fills in `arguments` (they must live as long).
 class Parser {
   public:
-    enum class Form { draw, replay, styles };
+    enum class Form { draw, write, replay, styles };
     Parser(Form form, Arguments& arguments);
 
     /// Throws Error(bad_usage).
@@ -40,6 +43,7 @@ class Parser {
     CLI::Option* add(CLI::Option* option, const char* group, bool common = true);
     void add_style_options();
     void add_hand_options();
+    void add_text_options();
     void add_output_options();
     void add_run_options();
     void add_help_options();
@@ -52,6 +56,8 @@ class Parser {
 
 /// The run that the arguments of the main form ask for. Throws Error(bad_usage).
 RunRequest draw_request(const Arguments& arguments);
+/// The run of `write`: words or a mask, on a picture or on paper. Throws Error(bad_usage).
+RunRequest write_request(const Arguments& arguments);
 /// The same for what `draw` and `replay` share: outputs and how they are written.
 void set_output_options(RunRequest& request, const Arguments& arguments);
 

@@ -52,6 +52,7 @@ ImageSpec spec_for(FileFormat format, const Drawing& drawing, const ipc::EncodeS
         spec["compression"] = settings.compression > 0 ? "zip" : "none";
         spec["tiff:zipquality"] = std::clamp(settings.compression, 1, 9);
         spec["tiff:write_exif"] = 0;
+        spec["DateTime"] = "1970:01:01 00:00:00";  // else it would be now: same command, same bytes
     }
     if (drawing.dpi > 0 && format == FileFormat::jpeg) {  // JPEG's own header has a place for it
         spec["XResolution"] = spec["YResolution"] = float(drawing.dpi);

@@ -70,7 +70,7 @@ class Reader {
         return strip > 1 && strip <= rows ? rows / strip * strip : rows;
     }
 
-    bool read(int row, int rows, TypeDesc type, void* samples) {
+    bool read(int row, int rows, const TypeDesc& type, void* samples) {
         const int begin = spec_.y + row, end = begin + rows;
         if (spec_.tile_width)
             return input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, begin, end, spec_.z, spec_.z + 1, 0,

@@ -24,7 +24,8 @@ Branching branching(const Dendrite& d) {
     std::vector<std::uint32_t> branch_of(n, Branch::kNone);
     for (std::uint32_t v = 0; v < n; ++v) {
         const bool root = d.is_root(v);
-        if (root ? out.main_child[v] == Branching::kNone : out.main_child[d.parent[v]] == v && branch_of[v] != Branch::kNone)
+        if (root ? out.main_child[v] == Branching::kNone
+                 : out.main_child[d.parent[v]] == v && branch_of[v] != Branch::kNone)
             continue;
         Branch branch;
         if (!root) {

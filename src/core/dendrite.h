@@ -18,8 +18,8 @@ struct Dendrite {
     std::vector<NodeId> node;             ///< the lattice node it came from
     std::vector<Vec2f> position_lattice;  ///< where it is drawn, after smoothing; lattice frame
     std::vector<std::uint32_t> parent;
-    std::vector<std::uint16_t> owner;     ///< which root it grew from
-    std::vector<std::uint8_t> stage;      ///< the stage that added it, 0 first
+    std::vector<std::uint16_t> owner;  ///< which root it grew from
+    std::vector<std::uint8_t> stage;   ///< the stage that added it, 0 first
 
     std::size_t size() const { return parent.size(); }
     bool is_root(std::uint32_t v) const { return parent[v] == kRoot; }

@@ -5,7 +5,19 @@
 namespace dstylize {
 
 /// One independent random stream per purpose, so that adding a stage never reshuffles another.
-enum class Purpose : std::uint32_t { white_noise, smooth_noise, swirl, endpoints, leaves, paper, jitter };
+enum class Purpose : std::uint32_t {
+    white_noise,
+    smooth_noise,
+    swirl,
+    endpoints,
+    leaves,
+    paper,
+    jitter,
+    warp,
+    ragged_outline,
+    relief,
+    bark
+};
 
 /// Counter-based noise (Philox 4x32-10, Salmon et al. 2011): a value depends on (seed, purpose,
 /// index) alone, never on the order of calls or on threads.

@@ -12,7 +12,14 @@ void Growth::add_root(NodeId node, std::uint16_t owner) {
     index_of_[index(node)] = dendrite_.add(node, lattice_.position_lattice(node), Dendrite::kRoot, owner, 0);
 }
 
-std::size_t Growth::graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage) {
+void Growth::start_layer(std::uint8_t last_shared) {
+    std::fill(index_of_.begin(), index_of_.end(), kAbsent);
+    for (std::uint32_t v = 0; v < dendrite_.size(); ++v)
+        if (dendrite_.stage[v] <= last_shared) index_of_[index(dendrite_.node[v])] = v;
+}
+
+std::size_t Growth::graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage,
+                          const Accept& accept) {
     std::size_t unreached = 0;
     std::vector<NodeId> path;
     for (const NodeId endpoint : endpoints) {
@@ -23,6 +30,7 @@ std::size_t Growth::graft(const Plan& plan, std::span<const NodeId> endpoints, s
         path.clear();
         NodeId at = endpoint;
         for (; !contains(at); at = plan.parent[index(at)]) path.push_back(at);
+        if (path.empty() || (accept && !accept(path))) continue;
         std::uint32_t parent = index_of_[index(at)];
         for (auto node = path.rbegin(); node != path.rend(); ++node) {
             parent = dendrite_.add(*node, lattice_.position_lattice(*node), parent, dendrite_.owner[parent], stage);
@@ -32,15 +40,19 @@ std::size_t Growth::graft(const Plan& plan, std::span<const NodeId> endpoints, s
     return unreached;
 }
 
-std::vector<Source> Growth::sources(double carry, double cost_per_step) const {
-    std::vector<Source> out(dendrite_.size());
+std::vector<Source> Growth::sources(double carry, double cost_per_step, double bare) const {
+    constexpr double kBarePerStep = 2.5;
+    std::vector<Source> out;
+    out.reserve(dendrite_.size());
     std::vector<double> arc(dendrite_.size(), 0);
-    for (std::uint32_t v = 0; v < out.size(); ++v) {
+    for (std::uint32_t v = 0; v < dendrite_.size(); ++v) {
         if (!dendrite_.is_root(v)) {
             const std::uint32_t p = dendrite_.parent[v];
             arc[v] = arc[p] + double(distance(dendrite_.position_lattice[v], dendrite_.position_lattice[p]));
         }
-        out[v] = {dendrite_.node[v], std::uint64_t(std::llround(carry * arc[v] * cost_per_step)), dendrite_.owner[v]};
+        const double start = carry * arc[v] + kBarePerStep * std::max(0.0, bare - arc[v]);
+        if (index_of_[index(dendrite_.node[v])] != v) continue;
+        out.push_back({dendrite_.node[v], std::uint64_t(std::llround(start * cost_per_step)), dendrite_.owner[v]});
     }
     return out;
 }

@@ -19,14 +19,23 @@ class Growth {
     /// A new root at `node`; nothing when the node is already taken.
     void add_root(NodeId node, std::uint16_t owner);
 
+    /// From here on paths join, and start from, only what the stages up to `last_shared` have grown and what
+    /// is grown anew: a tree behind the tree, on the same trunk.
+    void start_layer(std::uint8_t last_shared);
+
     /// Joins the paths back from the endpoints to the dendrite: each is followed until it meets a node
     /// that is already in it. Endpoints without a path are left out; returns how many were.
     /// Precondition: the plan's sources are nodes of the dendrite.
-    std::size_t graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage);
+    /// `accept`, when given, sees each new path, endpoint first, without the node that it joins, and may
+    /// refuse it.
+    using Accept = std::function<bool(std::span<const NodeId> path)>;
+    std::size_t graft(const Plan& plan, std::span<const NodeId> endpoints, std::uint8_t stage,
+                      const Accept& accept = {});
 
-    /// Every node of the dendrite as a source. `carry` in [0, 1] makes a later stage remember its way:
-    /// a node starts at carry * (arc length to its root) * cost_per_step.
-    std::vector<Source> sources(double carry, double cost_per_step) const;
+    /// Every node of the dendrite, or of its present layer, as a source. `carry` in [0, 1] makes a later stage remember
+    /// its way: a node starts at carry * (arc length to its root) * cost_per_step. On the first `bare` steps from the
+    /// root a start costs more, up to 2.5 * bare * cost_per_step at the root itself: trunks without twigs.
+    std::vector<Source> sources(double carry, double cost_per_step, double bare = 0) const;
 
   private:
     static constexpr std::uint32_t kAbsent = 0xffffffffu;

@@ -32,6 +32,7 @@ struct ShapeLayer {
     /// Of the whole layer at once, then all its shapes are opaque; 1 when shapes have their own.
     float opacity = 1;
     bool one_colour = false;
+    bool light = false;  ///< screened over what lies below
     std::vector<ShapeGroup> groups;
 };
 

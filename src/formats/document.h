@@ -28,6 +28,9 @@ struct DocumentInfo {
 /// In a `max` layer of one colour strokes are sorted by stage and order; transparency is the group's, so
 /// that overlaps do not show. Layers of several colours keep painting order.
 ///
+/// A glowing layer is painted in its items' colours and screened over what lies below (SVG:
+/// `mix-blend-mode: screen`); blurs are not vectors: pipeline/lit_ground.h puts halos into the paper picture.
+///
 /// Metadata: title, `author` and `copyright` as Dublin Core, and every text as
 /// `<d:text key="KEY">...</d:text>` in the namespace urn:dstylize.
 std::string svg_document(const DisplayList& list, const DocumentInfo& info);

@@ -60,7 +60,8 @@ void add_path(cairo_t* context, const CubicPath& path) {
 }
 
 void paint_layer(cairo_t* context, const ShapeLayer& layer) {
-    if (layer.opacity < 1) cairo_push_group(context);
+    const bool grouped = layer.opacity < 1 || layer.light;
+    if (grouped) cairo_push_group(context);
     for (const ShapeGroup& group : layer.groups)
         for (const Shape& shape : group.shapes) {
             const Rgba c = shape.colour;
@@ -68,9 +69,11 @@ void paint_layer(cairo_t* context, const ShapeLayer& layer) {
             add_path(context, shape.path);
             cairo_fill(context);
         }
-    if (layer.opacity >= 1) return;
+    if (!grouped) return;
     cairo_pop_group_to_source(context);
+    if (layer.light) cairo_set_operator(context, CAIRO_OPERATOR_SCREEN);
     cairo_paint_with_alpha(context, layer.opacity);
+    cairo_set_operator(context, CAIRO_OPERATOR_OVER);
 }
 
 /// The picture, stretched over the page.

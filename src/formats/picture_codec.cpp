@@ -112,22 +112,22 @@ PictureCodec::PictureCodec(PictureCodec&&) noexcept = default;
 PictureCodec& PictureCodec::operator=(PictureCodec&&) noexcept = default;
 
 DecodedPicture PictureCodec::decode(std::span<const std::byte> file_bytes, const std::string& name) try {
-    constexpr ErrorCode code = ErrorCode::cannot_read;
-    if (file_bytes.empty()) throw Error(code, name, "is empty", "give a picture");
+    constexpr ErrorCode kCode = ErrorCode::cannot_read;
+    if (file_bytes.empty()) throw Error(kCode, name, "is empty", "give a picture");
     ipc::Descriptor file = ipc::shared_memory(file_bytes.size());
     ipc::write_all(file, file_bytes);
     ipc::CodecRequest request;
     request.operation = ipc::CodecOperation::decode;
     request.allow_damaged = options_.allow_damaged;
     request.payload_bytes = file_bytes.size();
-    const auto [answer, payload] = reply(options_, process_, request, file, code, name);
+    const auto [answer, payload] = reply(options_, process_, request, file, kCode, name);
     file.reset();
 
     const Extent extent{answer.width, answer.height};
     if (extent.x < 1 || extent.y < 1 || answer.payload_bytes != extent.count() * sizeof(Rgba8) ||
         answer.payload_bytes > options_.max_memory_bytes || answer.text_bytes > kMaxTextBytes ||
         ipc::size_bytes(payload) != answer.payload_bytes + answer.text_bytes)
-        implausible(process_, code, name);
+        implausible(process_, kCode, name);
     DecodedPicture decoded{Picture(extent), answer.has_alpha != 0, {}};
     ipc::drain(payload, bytes_of(decoded.picture));
     std::string text(answer.text_bytes, '\0');
@@ -141,7 +141,7 @@ DecodedPicture PictureCodec::decode(std::span<const std::byte> file_bytes, const
 
 std::vector<std::byte> PictureCodec::encode(const Picture& picture, const EncodeOptions& options,
                                             const std::string& name) try {
-    constexpr ErrorCode code = ErrorCode::cannot_write;
+    constexpr ErrorCode kCode = ErrorCode::cannot_write;
     assert(!picture.empty() && picture.extent().z == 1);
     const std::string text = ipc::packed_text(options.metadata.text);
     ipc::CodecRequest request;
@@ -157,12 +157,12 @@ std::vector<std::byte> PictureCodec::encode(const Picture& picture, const Encode
     ipc::Descriptor pixels = ipc::shared_memory(request.payload_bytes + request.text_bytes);
     ipc::write_all(pixels, bytes_of(picture));
     ipc::write_all(pixels, bytes_of(text), request.payload_bytes);
-    const auto [answer, payload] = reply(options_, process_, request, pixels, code, name);
+    const auto [answer, payload] = reply(options_, process_, request, pixels, kCode, name);
     pixels.reset();
 
     if (answer.payload_bytes == 0 || ipc::size_bytes(payload) != answer.payload_bytes ||
         answer.payload_bytes > 2 * request.payload_bytes + request.text_bytes + (64u << 20))
-        implausible(process_, code, name);
+        implausible(process_, kCode, name);
     std::vector<std::byte> file(answer.payload_bytes);
     ipc::drain(payload, file);
     return file;

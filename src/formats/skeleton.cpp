@@ -145,7 +145,8 @@ std::string skeleton_json(const Skeleton& skeleton, const DocumentInfo& info) {
         kFormatName, kVersion, skeleton.lattice.x, skeleton.lattice.y, skeleton.picture.x, skeleton.picture.y,
         json_text(info.title));
     for (std::size_t i = 0; i < info.text.size(); ++i)
-        out += fmt::format("{}\n  {}: {}", i > 0 ? "," : "", json_text(info.text[i].first), json_text(info.text[i].second));
+        out += fmt::format("{}\n  {}: {}", i > 0 ? "," : "", json_text(info.text[i].first),
+                           json_text(info.text[i].second));
     out += "}";
     append_array(out, "stages", skeleton.stage_names.size(),
                  [&](std::size_t i) { out += json_text(skeleton.stage_names[i]); });

@@ -160,8 +160,8 @@ class SvgWriter {
         if (list.paper.picture ? info.paper_png.empty() : list.paper.colour.a <= 0) return;
         open_group("paper", "paper", " sodipodi:insensitive=\"true\"");
         if (list.paper.picture) {
-            out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ", decimal(list.width_px),
-                                decimal(list.height_px));
+            out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ",
+                                decimal(list.width_px), decimal(list.height_px));
             out_ += "xlink:href=\"data:image/png;base64,";
             append_base64(out_, info.paper_png);
             out_ += "\"/>\n</g>\n";
@@ -175,6 +175,7 @@ class SvgWriter {
         if (layer.groups.empty()) return;
         std::string attributes = layer.one_colour ? paint(layer.groups[0].shapes[0].colour) : "";
         if (layer.opacity < 1) attributes += opacity("opacity", layer.opacity);
+        if (layer.light) attributes += " style=\"mix-blend-mode:screen\"";
         open_group(layer.name, layer.name, attributes);
         for (const ShapeGroup& group : layer.groups) {
             const std::string label =

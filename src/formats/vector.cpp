@@ -59,6 +59,7 @@ bool xml_allows(char32_t code) {
 ShapeLayer shape_layer(const Layer& layer, float tolerance_px) {
     ShapeLayer out;
     out.name = clean_text(layer.name);
+    out.light = layer.glow.has_value();
     std::vector<const Item*> items;
     for (const Item& item : layer.items) items.push_back(&item);
     out.one_colour = !items.empty() && std::ranges::all_of(items, [&](const Item* item) {

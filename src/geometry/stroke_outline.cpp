@@ -12,7 +12,6 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kWidestStep = kPi / 8;
 constexpr float kWidestMiter = kPi / 3;
-constexpr float kMostLean = 0.9999f;
 
 float cross(Vec2f a, Vec2f b) { return a.x * b.y - a.y * b.x; }
 
@@ -21,12 +20,13 @@ float cross(Vec2f a, Vec2f b) { return a.x * b.y - a.y * b.x; }
 struct Edge {
     Vec2f along;
     float lean;
+    float length;  ///< of the offset edge
 
     Edge(const WidthPoint& a, const WidthPoint& b) {
         const float run = distance(a.at, b.at);
         along = (b.at - a.at) * (1 / run);
-        // Short of 1, so that a full turn around a disc that holds its neighbour is not taken for none.
-        lean = std::clamp(0.5f * (a.width - b.width) / run, -kMostLean, kMostLean);
+        lean = std::clamp(0.5f * (a.width - b.width) / run, -1.0f, 1.0f);
+        length = run * std::sqrt(1 - lean * lean);
     }
     Vec2f normal() const { return along * lean + perpendicular(along) * std::sqrt(1 - lean * lean); }
 };
@@ -63,21 +63,21 @@ class Outliner {
         points_.push_back(offset(line[0], in.normal()));
         for (std::size_t i = 1; i + 1 < line.size(); ++i) {
             const Edge out(line[i], line[i + 1]);
-            const float room =
-                0.45f * std::min(distance(line[i - 1].at, line[i].at), distance(line[i].at, line[i + 1].at));
-            joint(line[i], in, out, room);
+            joint(line[i], in, out);
             in = out;
         }
         points_.push_back(offset(line.back(), in.normal()));
         arc(line.back(), in.normal(), 2 * std::asin(in.lean) - kPi);
     }
 
-    void joint(const WidthPoint& p, const Edge& in, const Edge& out, float room) {
+    void joint(const WidthPoint& p, const Edge& in, const Edge& out) {
         const float radius = 0.5f * p.width, turn = normal_turn(in, out);
         if (std::abs(turn) < kWidestMiter) {
             const float slope = std::tan(0.5f * std::abs(turn)), reach = std::sqrt(1 + slope * slope);
             const bool near_enough = radius * (reach - 1) <= tolerance_;
-            if (turn > 0 ? radius * slope <= room : near_enough) {
+            // The next joint may take as much of the same edge.
+            const bool fits = radius * slope <= 0.45f * std::min(in.length, out.length);
+            if (fits && (turn > 0 || near_enough)) {
                 points_.push_back(offset(p, normalized(in.normal() + out.normal()) * reach));
                 return;
             }

@@ -103,7 +103,7 @@ float deviation(const WidthPoint& p, const WidthPoint& a, const WidthPoint& b) {
 
 TaperedLine smooth_line(std::span<const Vec2f> points, std::span<const float> widths, float tolerance) {
     assert(points.size() == widths.size() && tolerance > 0);
-    const TaperedLine line = without_repeats(points, widths);
+    TaperedLine line = without_repeats(points, widths);
     if (line.size() < 3) return line;
     TaperedLine dense;
     dense.reserve(line.size() * 2);

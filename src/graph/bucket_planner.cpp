@@ -130,19 +130,26 @@ EdgeRange edge_range(const WeightedLattice& g) {
             largest = std::max(largest, std::uint32_t(x));
         }
     };
+    std::uint32_t shortest5 = 5, longest5 = 11;
+    if (const Adjacency* a = g.lattice.adjacency(); a && !a->length5.empty()) {
+        shortest5 = *std::min_element(a->length5.begin(), a->length5.end());
+        longest5 = *std::max_element(a->length5.begin(), a->length5.end());
+    }
     for (const auto& plane : g.height_plane) look_at(plane);
     if (g.height_plane.empty()) {
         look_at(g.weight);
         least *= 2;
         largest *= 2;
     }
-    return {std::uint64_t(least) * 5, std::uint64_t(largest) * 11, largest};
+    return {std::uint64_t(least) * shortest5, std::uint64_t(largest) * longest5, largest};
 }
 
 template <class Edges, class Keys>
 Plan search(const PlanRequest& request, const Work& work, Keys keys, const EdgeRange& range) {
     return BucketSearch<Keys, Edges>(request, keys, range.least_cost).run(work);
 }
+
+constexpr int kListed = 0;  // in the place of a number of steps: an irregular lattice
 
 template <int kSteps, class Edges>
 Plan plan_with(const PlanRequest& request, const Work& work) {
@@ -156,7 +163,11 @@ Plan plan_with(const PlanRequest& request, const Work& work) {
         case Metric::sum: return search<Edges>(request, work, SumKeys{}, range);
         case Metric::max_sum: return search<Edges>(request, work, MaxSumKeys{}, range);
         case Metric::blend: return search<Edges>(request, work, BlendKeys{request.blend_factor}, range);
-        case Metric::lexicographic: return SpanningTree<kSteps, Edges>(request, range.largest_height).run(work);
+        case Metric::lexicographic:
+            if constexpr (kSteps == kListed)
+                return reference_planner().plan(request, work);
+            else
+                return SpanningTree<kSteps, Edges>(request, range.largest_height).run(work);
     }
     return {};
 }
@@ -172,6 +183,7 @@ class BucketPlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
         work.check();
+        if (request.graph.lattice.adjacency()) return plan_with<kListed, ListedEdges>(request, work);
         switch (request.graph.lattice.neighbourhood()) {
             case Neighbourhood::square4: return plan_on<4>(request, work);
             case Neighbourhood::square8: return plan_on<8>(request, work);

@@ -113,4 +113,31 @@ class EdgesByPlane : public EdgesOfNode<kSteps> {
     std::vector<std::array<std::uint16_t, kPlanes>> height_;
 };
 
+/// The edges of an irregular lattice; a step's number is its place in the whole adjacency.
+class ListedEdges {
+  public:
+    explicit ListedEdges(const WeightedLattice& g) : adjacency_(*g.lattice.adjacency()) {
+        if (!g.height_plane.empty()) {
+            height_.assign(g.height_plane[0].begin(), g.height_plane[0].end());
+            return;
+        }
+        height_.resize(adjacency_.to.size());
+        for (std::uint32_t u = 0; u < g.weight.size(); ++u)
+            for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e) {
+                const std::uint32_t own = g.weight[u], other = g.weight[adjacency_.to[e]];
+                if (own != kImpassable && other != kImpassable) height_[e] = own + other;
+            }
+    }
+    std::uint32_t length5(int edge) const { return adjacency_.length5[std::size_t(edge)]; }
+    template <class Visit>
+    void operator()(std::uint32_t u, Visit visit) const {
+        for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e)
+            if (height_[e] != 0) visit(adjacency_.to[e], height_[e], int(e));
+    }
+
+  private:
+    const Adjacency& adjacency_;
+    std::vector<std::uint32_t> height_;
+};
+
 }  // namespace dstylize

@@ -138,7 +138,51 @@ bool opposite_steps_are_equal(const std::vector<float>& factor) {
     return true;
 }
 
+/// 1 + A * coherence * sin^2 of the angle between a step and the mean flow of its ends.
+float crossing_factor(Vec2f step, Vec2f flow_u, Vec2f flow_v, float strength) {
+    const Vec2f mean = 0.5f * (flow_u + (dot(flow_u, flow_v) < 0 ? -1.0f : 1.0f) * flow_v);
+    const float cross = step.x * mean.y - step.y * mean.x, coherence = length(mean), squared = dot(step, step);
+    return coherence > 0 && squared > 0 ? 1 + strength * cross * cross / (squared * coherence) : 1;
+}
+
+/// The heights of an irregular lattice's edges, one by one.
+void list_heights(WeightedLattice& g, const DirectionalCost& cost, const Work& work) {
+    const Adjacency& a = *g.lattice.adjacency();
+    g.symmetric = false;
+    g.height_plane.assign(1, std::vector<std::uint16_t>(a.to.size(), 0));
+    const auto list_node = [&](std::uint32_t u) {
+        for (std::uint32_t e = a.first[u]; e < a.first[u + 1]; ++e) {
+            const std::uint32_t v = a.to[e];
+            if (g.weight[u] == kImpassable || g.weight[v] == kImpassable) continue;
+            const Vec2f step = a.position_lattice[v] - a.position_lattice[u];
+            float factor = pull_factor(step, cost.pull);
+            if (!cost.flow.empty()) factor *= crossing_factor(step, cost.flow[u], cost.flow[v], cost.strength);
+            const float height = float(g.weight[u] + g.weight[v]) * std::min(factor, DirectionalCost::kLargestFactor);
+            g.height_plane[0][e] = std::uint16_t(std::clamp(height + 0.5f, 1.0f, float(kLargestHeight)));
+        }
+    };
+    tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+        tbb::parallel_for(0, g.lattice.extent().y, [&](int j) {
+            for (int i = 0; i < g.lattice.extent().x; ++i) list_node(index(g.lattice.at(i, j)));
+        });
+    });
+    work.check();
+}
+
 }  // namespace
+
+float pull_factor(Vec2f step, Vec2f pull) {
+    const float strength = length(pull), walked = length(step);
+    if (strength <= 0 || walked <= 0) return 1;
+    return 1 + (strength - dot(step, pull) / walked) / 2;
+}
+
+std::vector<float> pull_factors(const Lattice& lattice, Vec2f pull) {
+    std::vector<float> factor;
+    for (const Step s : lattice.steps()) factor.push_back(pull_factor({float(s.dx), float(s.dy)}, pull));
+    return factor;
+}
 
 std::vector<float> downward_bias(const Lattice& lattice, float down) {
     std::vector<float> factor;
@@ -150,6 +194,7 @@ std::vector<float> downward_bias(const Lattice& lattice, float down) {
 }
 
 void build_height_planes(WeightedLattice& g, const DirectionalCost& cost, const Work& work) {
+    if (g.lattice.adjacency()) return list_heights(g, cost, work);
     const auto steps = g.lattice.steps();
     assert(cost.flow.empty() || cost.flow.extent() == g.lattice.extent());
     assert(cost.step_factor.empty() || cost.step_factor.size() == steps.size());

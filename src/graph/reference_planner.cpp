@@ -44,11 +44,10 @@ class BestFirstSearch {
     std::size_t node_count() const { return graph_.lattice.node_count(); }
 
     void offer_neighbours(NodeId u) {
-        const auto steps = graph_.lattice.steps();
-        for (int s = 0; s < int(steps.size()); ++s) {
+        for (int s = 0; s < graph_.degree(u); ++s) {
             const std::uint32_t height = graph_.height(u, s);
             if (height == 0) continue;
-            const PathEdge e{u, graph_.neighbour(u, s), height, steps[std::size_t(s)].length5};
+            const PathEdge e{u, graph_.neighbour(u, s), height, graph_.length5(u, s)};
             offer(e.to, order_.label(plan_.label[index(u)], e), e, plan_.owner[index(u)]);
         }
     }

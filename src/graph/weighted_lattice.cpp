@@ -18,7 +18,18 @@ std::uint32_t height_from_weights(const WeightedLattice& g, NodeId from, NodeId 
 
 }  // namespace
 
+int WeightedLattice::degree(NodeId from) const {
+    const Adjacency* a = lattice.adjacency();
+    return a ? int(a->first[index(from) + 1] - a->first[index(from)]) : int(lattice.steps().size());
+}
+
+std::uint32_t WeightedLattice::length5(NodeId from, int step) const {
+    const Adjacency* a = lattice.adjacency();
+    return a ? a->length5[a->first[index(from)] + std::uint32_t(step)] : lattice.steps()[std::size_t(step)].length5;
+}
+
 NodeId WeightedLattice::neighbour(NodeId from, int step) const {
+    if (const Adjacency* a = lattice.adjacency()) return NodeId{a->to[a->first[index(from)] + std::uint32_t(step)]};
     const Step s = lattice.steps()[std::size_t(step)];
     const int i = lattice.column(from) + s.dx, j = lattice.row(from) + s.dy;
     return lattice.extent().contains(i, j) ? lattice.at(i, j) : kNoNode;
@@ -27,6 +38,10 @@ NodeId WeightedLattice::neighbour(NodeId from, int step) const {
 std::uint32_t WeightedLattice::height(NodeId from, int step) const {
     const NodeId to = neighbour(from, step);
     if (to == kNoNode) return 0;
+    if (const Adjacency* a = lattice.adjacency()) {
+        if (!height_plane.empty()) return height_plane[0][a->first[index(from)] + std::uint32_t(step)];
+        return passable(from) && passable(to) ? std::uint32_t(weight[index(from)]) + weight[index(to)] : 0;
+    }
     if (height_plane.empty()) return height_from_weights(*this, from, to, lattice.steps()[std::size_t(step)]);
     if (!symmetric) return height_plane[std::size_t(step)][index(from)];
     return height_plane[std::size_t(step / 2)][index(step % 2 == 0 ? from : to)];

@@ -34,6 +34,9 @@ constexpr std::array<Offset, 2> passed_between(Step s) {
 /// of the edge that leaves u by step s; 0 means no such edge. Symmetric planes store even steps only:
 /// the height of step s ^ 1 from v is that of step s from the node it leads to. Planes alone say which
 /// edges exist; `weight` then only says on which nodes a source may lie. height_planes.h builds them.
+///
+/// An irregular lattice: h(u, v) = w(u) + w(v), or, when there is a height plane, its one plane with a
+/// height per entry of the adjacency.
 struct WeightedLattice {
     Lattice lattice;
     std::vector<NodeWeight> weight;                        ///< one per node
@@ -41,8 +44,12 @@ struct WeightedLattice {
     bool symmetric = true;                                 ///< planes: half of the steps are stored
 
     bool passable(NodeId n) const { return weight[index(n)] != kImpassable; }
+    /// How many step numbers a node has: the lattice's steps, or the edges that an irregular one lists.
+    int degree(NodeId from) const;
     /// Height of the edge that leaves `from` by step number `step`; 0 when there is none.
     std::uint32_t height(NodeId from, int step) const;
+    /// 5 x the length of that edge.
+    std::uint32_t length5(NodeId from, int step) const;
     /// The node that step number `step` leads to, or kNoNode outside the lattice.
     NodeId neighbour(NodeId from, int step) const;
 };

@@ -9,9 +9,7 @@
 namespace dstylize {
 namespace {
 
-cv::Mat mat(const Grid<float>& g) {
-    return cv::Mat(g.extent().y, g.extent().x, CV_32F, const_cast<float*>(g.data()));
-}
+cv::Mat mat(const Grid<float>& g) { return cv::Mat(g.extent().y, g.extent().x, CV_32F, const_cast<float*>(g.data())); }
 Grid<float> like(const Grid<float>& g) { return Grid<float>(g.extent()); }
 
 constexpr int kBins = 65536;

@@ -10,9 +10,11 @@ namespace dstylize::field {
 #undef DSTYLIZE_FIELD
 
 FlowField flow(Fields& fields);
+Grid<std::uint8_t> shape_interior(Fields& fields);
 
 /// Noise of the given correlation length, keyed by picture position: cells of `cell_u` on a fixed
 /// grid over the picture, so that another detail sees the same noise. Zero mean, unit deviation.
-Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u, float sigma_u);
+Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u, float sigma_u,
+                             std::uint32_t substream = 0);
 
 }  // namespace dstylize::field

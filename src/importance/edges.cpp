@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
 #include "imaging/filters.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
 namespace {
@@ -44,6 +44,12 @@ Grid<float> gradient(Fields& fields) {
         for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::max(out[n], p.gradient_wide_share * wide[n]);
     }
     if (p.gradient_gamma != 1) transform(out, [&](float v) { return std::pow(v, p.gradient_gamma); });
+    if (p.gradient_tone > 0) {
+        const Grid<float> tone = blurred(fields["tone"], 0.8f * fields.u());
+        for (std::size_t n = 0; n < out.size(); ++n)
+            out[n] *= 1 - p.gradient_tone * (1 - smoothstep(0.15f, 0.75f, tone[n]));
+        normalise(out, p.gradient_percentile);
+    }
     return out;
 }
 
@@ -101,6 +107,17 @@ Grid<float> features(Fields& fields) {
     return out;
 }
 
+Grid<float> low_features(Fields& fields) {
+    constexpr float kTop = 0.35f, kLow = 0.8f;  // shares of the height
+    Grid<float> out = fields["features"];
+    const Extent e = out.extent();
+    for (int j = 0; j < e.y; ++j) {
+        const float share = smoothstep(kTop, kLow, (float(j) + 0.5f) / float(e.y));
+        for (int i = 0; i < e.x; ++i) out(i, j) *= share;
+    }
+    return out;
+}
+
 Grid<float> density(Fields& fields) {
     Grid<float> out = blurred(fields["tone"], 2 * fields.u());
     const Grid<float>&g = fields["gradient"], &line = fields["lines"];
@@ -126,8 +143,8 @@ Grid<float> border(Fields& fields) {
     Grid<float> out(e);
     for (int j = 0; j < e.y; ++j)
         for (int i = 0; i < e.x; ++i)
-            out(i, j) = 1 - smoothstep(inner, std::max(outer, inner + 1),
-                                       float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
+            out(i, j) =
+                1 - smoothstep(inner, std::max(outer, inner + 1), float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
     return out;
 }
 

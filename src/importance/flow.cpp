@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
 #include "imaging/filters.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
 namespace {

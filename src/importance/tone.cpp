@@ -2,10 +2,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "importance/detail_field_functions.h"
+#include "core/vec.h"
 #include "imaging/filters.h"
+#include "importance/detail_field_functions.h"
 
 namespace dstylize::field {
+namespace {
+
+/// tone - share * its wide blur, stretched to [0, 1] again.
+void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
+    const Grid<float> around = blurred(tone, sigma);
+    for (std::size_t n = 0; n < tone.size(); ++n) tone[n] -= share * around[n];
+    const float lo = percentile(tone, 5), hi = percentile(tone, 98);
+    // A picture of one colour has nothing to stretch.
+    if (hi - lo < 1e-4f) {
+        for (std::size_t n = 0; n < tone.size(); ++n) tone[n] += share * around[n];
+        return;
+    }
+    transform(tone, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+}
+
+}  // namespace
 
 Grid<float> luma(Fields& fields) { return fields.source_luma(); }
 
@@ -33,8 +50,11 @@ Grid<float> tone(Fields& fields) {
         const Grid<float> ranks = rank(out);
         for (std::size_t n = 0; n < out.size(); ++n) out[n] = (1 - equalise) * out[n] + equalise * ranks[n];
     }
+    if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
     transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
+    if (p.tone_contrast > 0)
+        transform(out, [&](float v) { return v + p.tone_contrast * (smoothstep(0.08f, 0.82f, v) - v); });
     if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)
         for (std::size_t n = 0; n < out.size(); ++n) out[n] *= (*map)[n];
     return out;

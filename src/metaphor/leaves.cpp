@@ -3,8 +3,8 @@
 #include "metaphor/leaves.h"
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "core/noise.h"
@@ -37,8 +37,7 @@ class Cover {
         for (std::size_t k = 0; k < stroke.points_px.size(); ++k) {
             const float radius = 0.5f * stroke.width_px[k];
             for (float dy = -radius; dy <= radius; dy += px_per_cell_)
-                for (float dx = -radius; dx <= radius; dx += px_per_cell_)
-                    mark(stroke.points_px[k] + Vec2f{dx, dy});
+                for (float dx = -radius; dx <= radius; dx += px_per_cell_) mark(stroke.points_px[k] + Vec2f{dx, dy});
             mark(stroke.points_px[k]);
             if (k > 0) mark(lerp(stroke.points_px[k - 1], stroke.points_px[k], 0.5f));
         }
@@ -90,7 +89,8 @@ class Placement {
             const Vec2f way = normalized(stroke.points_px[k + 2] - stroke.points_px[k - 2]);
             const float turn = side * (p_.angle_deg + 17 * (random() - 0.5f)) * std::numbers::pi_v<float> / 180;
             const float angle = std::atan2(way.y, way.x) + turn;
-            const Vec2f base = stroke.points_px[k] + Vec2f{std::cos(angle), std::sin(angle)} * (0.4f * stroke.width_px[k]);
+            const Vec2f base =
+                stroke.points_px[k] + Vec2f{std::cos(angle), std::sin(angle)} * (0.4f * stroke.width_px[k]);
             if (try_sizes(base, angle, kLessThanTip)) {
                 arc = 0;
                 next = (0.6f + 0.8f * random()) * p_.spacing * subject_.u_px;
@@ -190,7 +190,8 @@ void add_leaf_layers(DisplayList& list, const std::vector<Leaf>& leaves, const L
         contour.width_px.assign(contour.points_px.size(), p.outline * u_px);
         fills.items.push_back(Fill{std::move(outline), p.fill});
         lines.items.push_back(std::move(contour));
-        lines.items.push_back(VariableStroke{{leaf.base_px, rib_end}, {p.outline * u_px, 0.4f * p.outline * u_px}, ink, 0, 0});
+        lines.items.push_back(
+            VariableStroke{{leaf.base_px, rib_end}, {p.outline * u_px, 0.4f * p.outline * u_px}, ink, 0, 0});
     }
     list.layers.insert(list.layers.begin(), std::move(fills));
     list.layers.push_back(std::move(lines));

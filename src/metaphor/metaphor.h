@@ -12,13 +12,16 @@ namespace dstylize {
 
 /// What a metaphor may look at. It changes nothing.
 struct Subject {
-    float width_px = 0, height_px = 0;  ///< the picture frame
-    float u_px = 1;                     ///< 1/1024 of its long side
-    float px_per_node = 1;              ///< scale of the fields
+    float width_px = 0, height_px = 0;        ///< the picture frame
+    float u_px = 1;                           ///< 1/1024 of its long side
+    float px_per_node = 1;                    ///< scale of the fields
     std::span<const VariableStroke> strokes;  ///< centrelines and widths; parents before children
     /// A field of the picture by name, on the lattice.
     std::function<const Grid<float>&(std::string_view)> field;
     std::uint64_t seed = 0;
+    const Picture* picture = nullptr;  ///< the input itself, at its own size; never null in a drawing
+    /// Beside `strokes`, one value per point: the share of all tips that hang on it, in (0, 1].
+    std::span<const std::vector<float>> tip_share = {};
 };
 
 /// How a dendrite is dressed: ink, vine, later lightning, lichen, bark. Its parameters are the table

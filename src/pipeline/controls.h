@@ -33,6 +33,7 @@ struct EndpointRow {
 struct Controls {
     std::optional<Picture> importance;  ///< luma in [0, 1]: multiplied in, or in the place of ours
     bool importance_replaces = false;
+    bool no_picture = false;      ///< grow without being led by the picture; its size remains
     std::optional<Picture> mask;  ///< luma below one half: nothing may grow
     std::vector<RootChoice> roots;
     std::vector<EndpointRow> endpoints;

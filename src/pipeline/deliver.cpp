@@ -5,12 +5,14 @@
 #include "formats/document.h"
 #include "formats/skeleton.h"
 #include "imaging/filters.h"
+#include "pipeline/lit_ground.h"
 #include "render/raster.h"
 
 namespace dstylize {
 namespace {
 
 constexpr std::size_t kMostGrainedPixels = 4'000'000;
+constexpr int kMostGroundPixels = 4096;  // of the long side of a picture inside a vector file
 
 std::vector<std::byte> bytes_of(const std::string& text) {
     const auto* first = reinterpret_cast<const std::byte*>(text.data());
@@ -67,7 +69,7 @@ Delivery::Delivery(Drawing drawing, DeliveryOptions options, PictureCodec& codec
 }
 
 std::vector<std::byte> Delivery::file(const OutputFormat& format, const std::string& name, const Work& work) {
-    return format.holds == Holds::picture ? picture_file(format, name, work) : document_file(format, name);
+    return format.holds == Holds::picture ? picture_file(format, name, work) : document_file(format, name, work);
 }
 
 std::vector<std::byte> Delivery::picture_file(const OutputFormat& format, const std::string& name, const Work& work) {
@@ -80,7 +82,7 @@ std::vector<std::byte> Delivery::picture_file(const OutputFormat& format, const 
     return dstylize::picture_file(*raster_, format, options_, codec_, name);
 }
 
-std::vector<std::byte> Delivery::document_file(const OutputFormat& format, const std::string& name) {
+std::vector<std::byte> Delivery::document_file(const OutputFormat& format, const std::string& name, const Work& work) {
     DocumentInfo info;
     info.title = options_.title;
     info.text = options_.metadata.text;
@@ -89,9 +91,10 @@ std::vector<std::byte> Delivery::document_file(const OutputFormat& format, const
         return bytes_of(skeleton_json(
             {drawing_.dendrite, drawing_.lattice, drawing_.picture, drawing_.stage_names, drawing_.width_u}, info));
     }
-    if (format.id == FormatId::pdf) return bytes_of(pdf_document(drawing_.list, info));
-    if (drawing_.list.paper.picture) info.paper_png = codec_.encode(*drawing_.list.paper.picture, {}, name);
-    return bytes_of(svg_document(drawing_.list, info));
+    const DisplayList list = with_lit_ground(drawing_.list, kMostGroundPixels, work);
+    if (format.id == FormatId::pdf) return bytes_of(pdf_document(list, info));
+    if (list.paper.picture) info.paper_png = codec_.encode(*list.paper.picture, {}, name);
+    return bytes_of(svg_document(list, info));
 }
 
 }  // namespace dstylize

@@ -32,7 +32,7 @@ class Delivery {
 
   private:
     std::vector<std::byte> picture_file(const OutputFormat& format, const std::string& name, const Work& work);
-    std::vector<std::byte> document_file(const OutputFormat& format, const std::string& name);
+    std::vector<std::byte> document_file(const OutputFormat& format, const std::string& name, const Work& work);
 
     Drawing drawing_;
     DeliveryOptions options_;

@@ -1,84 +1,89 @@
+// Stage by stage, batch by batch: weights, endpoints, plan, graft. What a batch sees of the ones before it
+// is the dendrite and, when the style asks for it, the field `lacking`.
 #include "pipeline/growth.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/branching.h"
+#include "core/noise.h"
 #include "core/sampling.h"
 #include "dendrite/graft.h"
 #include "graph/bucket_planner.h"
-#include "graph/graph_distance.h"
 #include "graph/height_planes.h"
+#include "graph/meeting_points.h"
 #include "imaging/filters.h"
+#include "importance/fractal_noise.h"
+#include "pipeline/endpoints.h"
 #include "pipeline/roots.h"
-#include "stipple/poisson_discs.h"
+#include "stroke/pipe.h"
 
 namespace dstylize {
 namespace {
 
-/// Node weights of a stage (METHOD: cost = (sum of weighted fields)^power, in integer levels).
-WeightedLattice weights(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style,
-                        const StageParameters& stage, const Work& work) {
-    WeightedLattice graph{Lattice(fields.extent(), style.lattice.neighbourhood), {}, {}, true};
+/// One round of a stage.
+struct Round {
+    const StageParameters& stage;
+    std::uint32_t number;
+    int batch;
+    std::uint32_t substream() const { return 1 + number + 256 * std::uint32_t(batch); }
+};
+
+Grid<float> node_cost(Fields& fields, const Round& round) {
+    const StageParameters& stage = round.stage;
     Grid<float> cost(fields.extent(), stage.cost_constant);
     for (const auto& [name, weight] : stage.cost) {
         const Grid<float>& field = fields[name];
         for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += weight * field[n];
     }
+    return cost;
+}
+
+/// Noise comes on top of what the fields leave, so that no place is without it.
+void add_noise(Grid<float>& cost, const Fields& fields, const Round& round) {
+    const StageParameters& stage = round.stage;
+    if (stage.noise_white > 0) {
+        const Noise noise(fields.seed(), Purpose::white_noise, round.substream());
+        for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += stage.noise_white * noise.unit(n);
+    }
+    if (stage.noise_smooth > 0) {
+        const Grid<float> noise = fractal_noise(fields, stage.noise_scale, round.substream());
+        for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += 2 * stage.noise_smooth * noise[n] * noise[n];
+    }
+}
+
+/// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
+WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Work& work) {
+    const StageParameters& stage = round.stage;
+    WeightedLattice graph{base.lattice, {}, {}, true};
+    Grid<float> cost = node_cost(fields, round);
+    if (stage.noise_white > 0 || stage.noise_smooth > 0) {
+        transform(cost, [](float c) { return std::max(0.0f, c); });
+        add_noise(cost, fields, round);
+    }
     graph.weight.resize(cost.size());
     const auto top = float(stage.levels - 1);
+    const Adjacency* scattered = base.lattice.adjacency();
     for (std::size_t n = 0; n < cost.size(); ++n) {
-        if (!passable[n]) continue;
-        float c = std::max(0.0f, cost[n]);
+        if (!base.passable[n] || (scattered && !sample(base.passable, scattered->position_lattice[n]))) continue;
+        float c = std::max(0.0f, scattered ? sample(cost, scattered->position_lattice[n]) : cost[n]);
         if (stage.cost_power != 1) c = std::pow(c, stage.cost_power);
         graph.weight[n] = NodeWeight(1 + std::lround(top * std::min(1.0f, c / stage.cost_max)));
     }
-    if (stage.along_flow > 0 || stage.down > 0) {
+    const Vec2f pull{stage.wind, stage.down - stage.up};
+    if (stage.along_flow > 0 || length(pull) > 0) {
         DirectionalCost directional;
         if (stage.along_flow > 0) directional.flow = fields.flow();
         directional.strength = stage.along_flow;
-        if (stage.down > 0) directional.step_factor = downward_bias(graph.lattice, stage.down);
+        if (scattered)
+            directional.pull = pull;
+        else if (pull.x == 0 && pull.y > 0)
+            directional.step_factor = downward_bias(graph.lattice, pull.y);
+        else if (length(pull) > 0)
+            directional.step_factor = pull_factors(graph.lattice, pull);
         build_height_planes(graph, directional, work);
     }
     return graph;
-}
-
-Grid<float> endpoint_density(Fields& fields, const EndpointParameters& p) {
-    Grid<float> density = p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
-    transform(density, [&](float v) {
-        const float toe = p.density_toe > 0 ? smoothstep(-0.5f * p.density_toe, p.density_toe, v) : 1;
-        return std::pow(std::clamp(v, 0.0f, 1.0f), p.density_exponent) * toe;
-    });
-    return density;
-}
-
-std::vector<NodeId> discs(Fields& fields, const Grid<std::uint8_t>& passable, const EndpointParameters& p,
-                          const Dendrite& drawn, std::uint64_t seed, std::uint32_t stage_number) {
-    const float u = fields.u();
-    const Grid<float> density = endpoint_density(fields, p);
-    const DiscRequest request{fields[p.priority],    density,
-                              p.at_least,            p.jitter,
-                              p.calm_spacing * u,    p.dense_spacing * u,
-                              Noise(seed, Purpose::endpoints, stage_number)};
-    Occupancy occupancy(fields.extent());
-    std::transform(passable.begin(), passable.end(), occupancy.begin(), [](std::uint8_t p0) { return std::uint8_t(!p0); });
-    if (p.keep_off > 0) {
-        const auto width = std::uint32_t(fields.extent().x);
-        for (const NodeId node : drawn.node) {
-            const std::uint32_t n = index(node);
-            occupy(occupancy, int(n % width), int(n / width), p.keep_off * disc_radius(request, request.priority[n]));
-        }
-    }
-    return poisson_discs(request, occupancy);
-}
-
-/// Stipples whose spacing runs from calm_spacing at density 0 to dense_spacing at density 1: the
-/// distance between two is threshold / expense, and the expense is linear in the density (004 s. 4.2).
-std::vector<NodeId> stipples(Fields& fields, const Grid<std::uint8_t>& passable, const EndpointParameters& p,
-                             const Dendrite& drawn, const Work& work) {
-    Grid<float> expense = endpoint_density(fields, p);
-    const float least = std::min(1.0f, p.dense_spacing / p.calm_spacing);
-    transform(expense, [&](float v) { return least + (1 - least) * v; });
-    return graph_distance_stipples({expense, std::max(0.01f, p.dense_spacing * fields.u()), drawn.node, passable}, work);
 }
 
 std::vector<NodeId> given_endpoints(const Controls& controls, const StageParameters& stage, bool first,
@@ -87,23 +92,46 @@ std::vector<NodeId> given_endpoints(const Controls& controls, const StageParamet
     const Extent e = graph.lattice.extent();
     for (const EndpointRow& row : controls.endpoints) {
         if (row.stage.empty() ? !first : row.stage != stage.name) continue;
-        const NodeId node = graph.lattice.nearest({float(row.x.px(picture_px.x) / picture_px.x * e.x),
-                                                   float(row.y.px(picture_px.y) / picture_px.y * e.y)});
+        const NodeId node = graph.lattice.nearest(
+            {float(row.x.px(picture_px.x) / picture_px.x * e.x), float(row.y.px(picture_px.y) / picture_px.y * e.y)});
         if (graph.passable(node)) out.push_back(node);
     }
     return out;
 }
 
+/// The endpoints that close the rings of the priority field's ridges.
+std::vector<NodeId> loop_closings(Fields& fields, const WeightedLattice& graph, const Plan& plan,
+                                  const EndpointParameters& p) {
+    constexpr float kApart = 0.16f;  // of the shortest way around
+    const Grid<float>& ridge = fields[p.priority];
+    Grid<std::uint8_t> candidate(ridge.extent());
+    for (std::size_t n = 0; n < ridge.size(); ++n)
+        candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
+    const float around = p.close_loops * fields.u();
+    return meeting_points(graph.lattice, plan, candidate, std::max(1, int(around)), kApart * around);
+}
+
+constexpr double kHeightPerWeight = 2, kStraightLength = 5;
+
+/// What a straight step between nodes of cost `carry_cost` costs.
+double cost_per_step(const StageParameters& stage) {
+    return kHeightPerWeight * kStraightLength * double(stage.levels - 1) * double(stage.carry_cost / stage.cost_max);
+}
+
 double mean_cost_per_step(const WeightedLattice& graph, const Dendrite& drawn) {
     double sum = 0;
     for (const NodeId node : drawn.node) sum += graph.weight[index(node)];
-    constexpr double kHeightPerWeight = 2, kStraightLength = 5;
     return drawn.size() ? kHeightPerWeight * kStraightLength * sum / double(drawn.size()) : 0;
 }
 
-std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& graph, const StageParameters& stage) {
-    if (stage.sources == StageParameters::Sources::dendrite)
-        return growth.sources(stage.metric == Metric::sum ? stage.carry : 0, mean_cost_per_step(graph, growth.dendrite()));
+std::vector<Source> stage_sources(const Growth& growth, const WeightedLattice& graph, const StageParameters& stage,
+                                  float u) {
+    if (stage.sources == StageParameters::Sources::dendrite) {
+        const bool remembers = stage.metric == Metric::sum || stage.metric == Metric::blend;
+        const double counted =
+            stage.carry_cost > 0 ? cost_per_step(stage) : mean_cost_per_step(graph, growth.dendrite());
+        return growth.sources(remembers ? double(stage.carry) : 0, counted, remembers ? double(stage.bare * u) : 0);
+    }
     std::vector<Source> out;
     const Dendrite& d = growth.dendrite();
     for (std::uint32_t v = 0; v < d.size(); ++v)
@@ -121,34 +149,108 @@ std::function<float(Vec2f)> spur_length(Fields& fields, const StrokeParameters& 
     };
 }
 
+/// Whether anything in the style looks at what is lacking.
+bool looks_at_lack(const StageParameters& stage) {
+    return stage.path_lack > -1 || stage.endpoints.density == "lacking" || stage.endpoints.priority == "lacking" ||
+           std::any_of(stage.cost.begin(), stage.cost.end(), [](const auto& c) { return c.first == "lacking"; });
+}
+
+/// Wanted less drawn ink, as the drawing stands.
+Grid<float> lack(Fields& fields, const Dendrite& drawn, const WidthParameters& width, int batch) {
+    constexpr float kEarlyWindow_u = 3.7f, kWindow_u = 2.4f;
+    constexpr int kEarlyBatches = 3;
+    const Branching b = branching(drawn);
+    const std::vector<float> widths = pipe_widths(drawn, b, width.pipe, fields.u());
+    const float window = (batch < kEarlyBatches ? kEarlyWindow_u : kWindow_u) * fields.u();
+    Grid<float> out = ink_coverage(drawn, widths, fields.extent(), window);
+    const Grid<float>& wanted = fields["wanted"];
+    for (std::size_t n = 0; n < out.size(); ++n) out[n] = width.wanted_gain * wanted[n] - out[n];
+    return out;
+}
+
+/// Which new paths are grown: those that lie where ink is lacking and hardly leave the shape.
+Growth::Accept path_filter(Fields& fields, const Lattice& lattice, const Round& round, const Grid<float>& lacking) {
+    const StageParameters& p = round.stage;
+    if (p.path_lack <= -1 && p.path_inside.empty()) return {};
+    const Grid<float>* inside = p.path_inside.empty() ? nullptr : &fields[p.path_inside];
+    constexpr float kInside = 0.45f, kRealLack = 0.06f, kShorter = 0.72f;
+    constexpr std::size_t kOutsideAnyway = 2, kOutsideOneIn = 12;
+    const float longest = p.path_longest * std::pow(kShorter, float(round.batch)) * fields.u();
+    return [&lattice, &lacking, &p, inside, longest](std::span<const NodeId> path) {
+        std::size_t outside = 0;
+        double sum = 0;
+        for (const NodeId node : path) {
+            const Vec2f at = lattice.position_lattice(node);
+            if (inside) outside += sample(*inside, at) < kInside;
+            if (p.path_lack > -1) sum += double(sample(lacking, at));
+        }
+        if (outside > kOutsideAnyway + path.size() / kOutsideOneIn) return false;
+        if (p.path_lack <= -1) return true;
+        const bool is_long = p.path_longest > 0 && float(path.size()) > longest;
+        return sum / double(path.size()) > double(is_long ? kRealLack : p.path_lack);
+    };
+}
+
+/// What a unit of length costs on the nodes that a stage added, as a share of its dearest node.
+void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t first, const WeightedLattice& graph,
+                  const StageParameters& stage) {
+    for (std::size_t v = first; v < drawn.size(); ++v) {
+        const std::uint32_t n = index(drawn.node[v]);
+        node_cost[n] = float(graph.weight[n]) / float(stage.levels);
+    }
+}
+
 }  // namespace
 
-Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
-           Extent picture_px, const StageObserver& observer, const Work& work) {
-    Growth growth(Lattice(fields.extent(), style.lattice.neighbourhood));
+Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
+           const StageObserver& observer, const Work& work) {
+    Fields& fields = base.fields;
+    Growth growth(base.lattice);
     Grown out;
+    const auto stages = double(style.stages.size());
+    out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
-        work.report(stage.name + ": weights", (0.2 + double(s)) / (double(style.stages.size()) + 1));
-        const WeightedLattice graph = weights(fields, passable, style, stage, work);
-        if (s == 0) {
-            std::uint16_t owner = 0;
-            for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
-                growth.add_root(node, owner++);
+        out.endpoints.push_back(0);
+        if (s > 0 && stage.layer != style.stages[s - 1].layer) growth.start_layer(0);
+        const bool given = !controls.endpoints.empty();
+        for (int batch = 0; batch < (given ? 1 : stage.batches); ++batch) {
+            const Round round{stage, std::uint32_t(s), batch};
+            const double done = double(s) + double(batch) / stage.batches;
+            work.report(stage.name + ": weights", (0.2 + done) / (stages + 1));
+            Grid<float> lacking;
+            if (looks_at_lack(stage)) {
+                lacking = lack(fields, growth.dendrite(), style.width, batch);
+                Grid<float> share = lacking;
+                transform(share, [](float v) { return std::clamp(2 * v, 0.0f, 1.0f); });
+                fields.replace("lacking", std::move(share));
+            }
+            const WeightedLattice graph = weights(fields, base, round, work);
+            if (s == 0 && batch == 0) {
+                std::uint16_t owner = 0;
+                for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
+                    growth.add_root(node, owner++);
+            }
+            std::vector<NodeId> endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
+                                                  : placed_endpoints(fields, stage.endpoints,
+                                                                     {base.passable, graph, growth.dendrite(),
+                                                                      std::uint32_t(s), batch, stage.batches},
+                                                                     controls.seed, work);
+            work.report(stage.name + ": paths", (0.4 + done) / (stages + 1));
+            const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
+            const Plan plan =
+                bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+            if (stage.endpoints.close_loops > 0 && !given) {
+                const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
+                endpoints.insert(endpoints.end(), closings.begin(), closings.end());
+            }
+            if (observer) observer({stage, graph, plan, endpoints});
+            out.endpoints.back() += endpoints.size();
+            const std::size_t before = growth.dendrite().size();
+            out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),
+                                          given ? Growth::Accept{} : path_filter(fields, base.lattice, round, lacking));
+            record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
         }
-        std::vector<NodeId> endpoints;
-        if (!controls.endpoints.empty()) endpoints = given_endpoints(controls, stage, s == 0, graph, picture_px);
-        else if (stage.endpoints.rule == EndpointParameters::Rule::stipples)
-            endpoints = stipples(fields, passable, stage.endpoints, growth.dendrite(), work);
-        else
-            endpoints = discs(fields, passable, stage.endpoints, growth.dendrite(), controls.seed, std::uint32_t(s));
-        work.report(stage.name + ": paths", (0.4 + double(s)) / (double(style.stages.size()) + 1));
-        const std::vector<Source> sources = stage_sources(growth, graph, stage);
-        const Plan plan = bucket_planner().plan(
-            {graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
-        if (observer) observer({stage, graph, plan, endpoints});
-        out.endpoints.push_back(endpoints.size());
-        out.unreached += growth.graft(plan, endpoints, std::uint8_t(s));
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));
     return out;

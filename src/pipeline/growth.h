@@ -3,8 +3,7 @@
 
 #include "core/dendrite.h"
 #include "core/work.h"
-#include "pipeline/controls.h"
-#include "pipeline/style.h"
+#include "pipeline/prepared_picture.h"
 
 namespace dstylize {
 
@@ -21,11 +20,11 @@ struct Grown {
     Dendrite dendrite;
     std::vector<std::size_t> endpoints;  ///< placed, per stage
     std::size_t unreached = 0;           ///< endpoints without a path
+    Grid<float> node_cost;               ///< of a unit of length at each node of the dendrite, 0 elsewhere
 };
 
-/// Runs the stages of a style: weights, endpoints, plan, graft. `passable`: 0 where nothing may grow.
-/// `observer` may be empty.
-Grown grow(Fields& fields, const Grid<std::uint8_t>& passable, const Style& style, const Controls& controls,
-           Extent picture_px, const StageObserver& observer, const Work& work);
+/// Runs the stages of a style, each in its batches: weights, endpoints, plan, graft. `observer` may be empty.
+Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
+           const StageObserver& observer, const Work& work);
 
 }  // namespace dstylize

@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "formats/files.h"
+#include "pipeline/style_file.h"
 
 namespace dstylize {
 namespace {
@@ -15,7 +17,8 @@ namespace fs = std::filesystem;
 bool same_file(const fs::path& a, const fs::path& b) {
     std::error_code ignored;
     if (a == "-" || b == "-" || a.empty() || b.empty()) return false;
-    return fs::equivalent(a, b, ignored) || fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+    return fs::equivalent(a, b, ignored) || fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
+                                                fs::weakly_canonical(fs::absolute(b, ignored), ignored);
 }
 
 const OutputFormat& format_of(const fs::path& path, const std::string& format_name) {
@@ -104,6 +107,12 @@ std::vector<PlannedOutput> planned_outputs(const std::vector<fs::path>& paths, c
         out.push_back(std::move(output));
     }
     return out;
+}
+
+void copy_style_file(const std::string& name_or_file, const fs::path& user_folder, const fs::path& target, bool force) {
+    const std::string source = style_source(name_or_file, user_folder);
+    check_target(target, {}, force);
+    write_file_atomically(target, std::as_bytes(std::span(source)));
 }
 
 }  // namespace dstylize

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "formats/document_text.h"
+#include "pipeline/control_text.h"
 
 namespace dstylize {
 namespace {
@@ -62,18 +63,56 @@ class RecipeReader {
     }
     bool importance_replaces() const {
         const std::string mode = text("importance_mode");
-        if (!mode.empty() && mode != "multiply" && mode != "replace") refuse("importance_mode");
+        if (!mode.empty() && mode != "multiply" && mode != "replace" && mode != "none") refuse("importance_mode");
         return mode == "replace";
     }
+    bool no_picture() const { return text("importance_mode") == "none"; }
 
-  private:
     [[noreturn]] void refuse(std::string_view key) const {
         throw Error(ErrorCode::cannot_read, origin_, fmt::format("its recipe is damaged (recipe.{})", key),
                     "give a file that dstylize made");
     }
+
+  private:
     const toml::table& table_;
     const std::string& origin_;
 };
+
+toml::table table(const Writing& writing) {
+    const Lettering& l = writing.lettering;
+    toml::table out{{"text", l.text},
+                    {"font", l.font},
+                    {"align", std::int64_t(l.align)},
+                    {"letter_spacing", double(l.letter_spacing)},
+                    {"line_spacing", double(l.line_spacing)},
+                    {"size", double(writing.size)},
+                    {"place", root_text({{}, writing.x, writing.y})}};
+    out.is_inline(true);
+    return out;
+}
+
+Writing parsed_writing(const toml::node& node, const RecipeReader& outer) {
+    const toml::table* words = node.as_table();
+    if (!words) outer.refuse("writing");
+    Writing out;
+    Lettering& l = out.lettering;
+    const auto number = [&](const char* key, float value, float lo, float hi) {
+        const float given = float((*words)[key].value_or(double(value)));
+        if (!(given >= lo && given <= hi)) outer.refuse("writing");
+        return given;
+    };
+    l.text = (*words)["text"].value_or(std::string());
+    l.font = (*words)["font"].value_or(l.font);
+    l.align = Lettering::Align(int(number("align", float(l.align), 0, 2)));
+    l.letter_spacing = number("letter_spacing", l.letter_spacing, Writing::kLeastSpacing, Writing::kMostSpacing);
+    l.line_spacing = number("line_spacing", l.line_spacing, Writing::kLeastLines, Writing::kMostLines);
+    out.size = number("size", out.size, 0, Writing::kMostSize);
+    const RootChoice place = parsed_root((*words)["place"].value_or(std::string("0.5,0.5")));
+    if (place.place) outer.refuse("writing");
+    out.x = place.x;
+    out.y = place.y;
+    return out;
+}
 
 std::string_view as_text(std::span<const std::byte> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -88,7 +127,8 @@ std::string_view as_text(std::span<const std::byte> bytes) {
 
 std::string recipe_toml(const Recipe& recipe) {
     toml::table out{{"program", recipe.program}, {"seed", std::int64_t(recipe.seed)}};
-    out.insert("input", table(recipe.input));
+    if (!recipe.input.name.empty()) out.insert("input", table(recipe.input));
+    if (recipe.writing) out.insert("writing", table(*recipe.writing));
     const auto add_mark = [&](const char* key, const std::optional<FileMark>& mark) {
         if (mark) out.insert(key, table(*mark));
     };
@@ -97,6 +137,7 @@ std::string recipe_toml(const Recipe& recipe) {
     };
     add_mark("importance", recipe.importance);
     if (recipe.importance) out.insert("importance_mode", recipe.importance_replaces ? "replace" : "multiply");
+    if (recipe.no_picture) out.insert("importance_mode", "none");
     add_mark("mask", recipe.mask);
     add_mark("endpoints", recipe.endpoints);
     add_mark("background_file", recipe.background_file);
@@ -132,11 +173,13 @@ Recipe parse_recipe(std::string_view text, const std::string& origin) {
     out.input = reader.mark("input").value_or(FileMark{});
     out.importance = reader.mark("importance");
     out.importance_replaces = reader.importance_replaces();
+    out.no_picture = reader.no_picture();
     out.mask = reader.mark("mask");
     out.endpoints = reader.mark("endpoints");
     out.background_file = reader.mark("background_file");
     out.background = reader.text("background");
     out.size = reader.text("size");
+    if (const toml::node* words = table->get("writing")) out.writing = parsed_writing(*words, reader);
     out.roots = reader.texts("roots");
     out.style_toml = text;
     return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/picture_codec.h"
+#include "pipeline/writing.h"
 
 namespace dstylize {
 
@@ -20,11 +21,13 @@ struct FileMark {
 struct Recipe {
     std::string program;  ///< "dstylize 0.1.0"
     std::uint64_t seed = 1;
-    FileMark input;
+    FileMark input;  ///< no name: plain paper
     std::optional<FileMark> importance, mask, endpoints, background_file;
     bool importance_replaces = false;
+    bool no_picture = false;
     std::vector<std::string> roots;  ///< as --root takes them
     std::string background;          ///< as --background takes it; empty: the style's paper, or background_file
+    std::optional<Writing> writing;  ///< words that were the mask
     std::string size;                ///< as --size takes it; empty: the input's
     std::string style_toml;          ///< the whole style
 };

@@ -39,13 +39,16 @@ Replay replay_of(const fs::path& old, const fs::path& input, PictureCodec& codec
     const AuxiliaryFinder found(old, input);
     Replay out;
     out.input_xxh128 = recipe.input.xxh128;
+    out.on_paper = recipe.input.name.empty();
     RunRequest& request = out.request;
     request.input = input;
+    request.writing = recipe.writing;
     request.style = name;
     request.style_toml = recipe.style_toml;
     request.seed = recipe.seed;
     request.importance = found(recipe.importance);
     request.importance_replaces = recipe.importance_replaces;
+    request.no_picture = recipe.no_picture;
     request.mask = found(recipe.mask);
     request.endpoints = found(recipe.endpoints);
     for (const std::string& root : recipe.roots) request.roots.push_back(parsed_root(root));

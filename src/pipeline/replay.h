@@ -9,6 +9,7 @@ namespace dstylize {
 struct Replay {
     RunRequest request;        ///< without outputs
     std::string input_xxh128;  ///< of the picture that the recipe was made with
+    bool on_paper = false;     ///< it was made with none
 };
 
 /// The run that made `old`, an output or a recipe file, again on `input`. Auxiliary files are looked for

@@ -51,27 +51,30 @@ class PlaceScore {
         : place_(place),
           u_(fields.u()),
           inset_(parameters.inset * u_),
-          interest_(blurred(fields[place == Place::darkest ? "darkness" : "importance"], (place == Place::darkest ? 6 : 3) * u_)) {}
+          centring_(parameters.centring),
+          interest_(blurred(fields[place == Place::darkest ? "darkness" : std::string_view(parameters.interest)],
+                            (place == Place::darkest ? 6 : 3) * u_)) {}
 
     float operator()(const Box& box, int i, int j) const {
-        constexpr float kCentring = 0.35f, kBand_u = 3;
+        constexpr float kBand_u = 3;
         const float width = float(box.right - box.left) + 1, height = float(box.bottom - box.top) + 1;
         const float x = 2 * (float(i - box.left) + 0.5f) / width - 1;  // -1 … 1 across the part
         const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
         const float interest = interest_(i, j);
         if (place_ == Place::darkest) return interest;
-        if (place_ == Place::centre) return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9
-                                                ? interest - 0.1f * (x * x + y * y) : kNever;
+        if (place_ == Place::centre)
+            return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9 ? interest - 0.1f * (x * x + y * y)
+                                                                                    : kNever;
         const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
         const float wanted = std::min(inset_, height / 4);
         if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
-        return interest - kCentring * x * x;
+        return interest - centring_ * x * x;
     }
     static constexpr float kNever = -1e9f;
 
   private:
     Place place_;
-    float u_, inset_;
+    float u_, inset_, centring_;
     Grid<float> interest_;
 };
 
@@ -131,7 +134,8 @@ NodeId passable_near(const WeightedLattice& graph, NodeId start, float radius) {
 PassableParts passable_parts(const WeightedLattice& graph) {
     const Lattice& lattice = graph.lattice;
     PassableParts out{Grid<std::uint32_t>(lattice.extent(), PassableParts::kNone), {}};
-    const int steps = std::min(8, int(lattice.steps().size()));  // a knight's move never joins what these do not
+    // A knight's move never joins what the other steps do not.
+    const int regular_steps = std::min(8, int(lattice.steps().size()));
     std::vector<NodeId> open;
     for (std::uint32_t n = 0; n < lattice.node_count(); ++n) {
         if (!graph.passable(NodeId{n}) || out.part[n] != PassableParts::kNone) continue;
@@ -143,6 +147,7 @@ PassableParts passable_parts(const WeightedLattice& graph) {
             const NodeId node = open.back();
             open.pop_back();
             ++out.size[part];
+            const int steps = lattice.adjacency() ? graph.degree(node) : regular_steps;
             for (int s = 0; s < steps; ++s) {
                 const NodeId next = graph.neighbour(node, s);
                 if (next == kNoNode || !graph.passable(next) || out.part[index(next)] != PassableParts::kNone) continue;
@@ -156,14 +161,14 @@ PassableParts passable_parts(const WeightedLattice& graph) {
 
 std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, const RootParameters& parameters,
                                const std::vector<RootChoice>& chosen, Extent picture_px) {
-    constexpr float kMoveAtMost_u = 8, kSmallestPart_u = 3;
+    constexpr float kMoveAtMost_u = 8;
     const PassableParts parts = passable_parts(graph);
     if (parts.size.empty())
         throw Error(ErrorCode::failed, "", "nothing can grow: the mask or the transparent picture leaves no room",
                     "give a mask with some white, or a picture that is not all transparent");
     std::vector<RootChoice> choices = chosen;
     if (choices.empty()) choices.push_back({parameters.place, {}, {}});
-    const float smallest = std::min(kSmallestPart_u * kSmallestPart_u * fields.u() * fields.u(),
+    const float smallest = std::min(parameters.smallest_part * fields.u() * fields.u(),
                                     float(*std::max_element(parts.size.begin(), parts.size.end())));
     std::vector<NodeId> out;
     for (const RootChoice& choice : choices) {
@@ -174,7 +179,8 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
             // The margin at the frame is ours, not the user's: a root there moves just inside.
             const NodeId at = passable_near(graph, chosen_node(graph, choice, picture_px), kMoveAtMost_u * fields.u());
             if (at == kNoNode)
-                throw Error(ErrorCode::bad_usage, "", fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),
+                throw Error(ErrorCode::bad_usage, "",
+                            fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),
                             "move it into the white part of the mask");
             starts.push_back(at);
         }
@@ -183,6 +189,14 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
             const NodeId node = cheapest_near(graph, parts, start, kMoveAtMost_u * fields.u());
             if (std::find(out.begin(), out.end(), node) == out.end()) out.push_back(node);
         }
+    }
+    if (!parameters.every_part || chosen.empty()) return out;
+    std::vector<bool> has_root(parts.size.size(), false);
+    for (const NodeId node : out) has_root[parts.part[index(node)]] = true;
+    for (const NodeId start : best_of_parts(fields, graph, parts, parameters, parameters.place)) {
+        const std::uint32_t part = parts.part[index(start)];
+        if (!has_root[part] && float(parts.size[part]) >= smallest)
+            out.push_back(cheapest_near(graph, parts, start, kMoveAtMost_u * fields.u()));
     }
     return out;
 }

@@ -32,7 +32,9 @@ Work part(const Work& work, double from, double to) {
     return inner;
 }
 
-std::string name_of(const fs::path& path) { return path == "-" ? "standard input" : path.string(); }
+std::string name_of(const fs::path& path) {
+    return path == "-" ? "standard input" : path.empty() ? "paper" : path.string();
+}
 
 struct ReadFile {
     std::vector<std::byte> bytes;
@@ -62,8 +64,8 @@ class Run {
     void load_style() {
         std::vector<Setting> settings = request_.settings;
         if (request_.detail > 0) settings.push_back({"lattice.detail", std::to_string(request_.detail)});
-        style_ = request_.style_toml ? parse_style(*request_.style_toml, request_.style, settings)
-                                     : dstylize::load_style(request_.style, settings);
+        style_ = request_.style_toml ? parse_style(*request_.style_toml, request_.style, settings, request_.user_styles)
+                                     : dstylize::load_style(request_.style, settings, request_.user_styles);
         if (request_.show.empty()) return;
         const std::vector<std::string> known = shown_names(style_);
         if (std::find(known.begin(), known.end(), request_.show) != known.end()) return;
@@ -106,19 +108,34 @@ class Run {
     }
 
     void read_inputs() {
-        ReadFile read = file(request_.input);
-        recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
-        input_ = codec_.decode(read.bytes, name_of(request_.input));
+        if (!request_.mask.path.empty()) controls_.mask = picture(request_.mask, recipe_.mask);
+        if (request_.input.empty()) {
+            input_.picture = Picture(paper(), {255, 255, 255, 255});
+        } else {
+            ReadFile read = file(request_.input);
+            recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
+            input_ = codec_.decode(read.bytes, name_of(request_.input));
+        }
+        if (request_.writing) controls_.mask = letter_mask(*request_.writing, input_.picture.extent());
+        lattice_ =
+            lattice_scale(input_.picture.extent(), style_.lattice, controls_.mask ? &*controls_.mask : nullptr).extent;
         frame_ = output_frame(request_.size, input_.picture.extent());
         controls_.seed = request_.seed;
         controls_.roots = request_.roots;
         controls_.importance_replaces = request_.importance_replaces;
+        controls_.no_picture = request_.no_picture;
         if (!request_.importance.path.empty()) controls_.importance = picture(request_.importance, recipe_.importance);
-        if (!request_.mask.path.empty()) controls_.mask = picture(request_.mask, recipe_.mask);
         if (!request_.endpoints.path.empty()) read_endpoints();
         if (request_.background.kind == Background::Kind::file)
             ground_ = picture({request_.background.file, request_.background_xxh128}, recipe_.background_file);
         if (request_.background.kind == Background::Kind::input) ground_ = input_.picture;
+    }
+
+    /// The size of the paper where there is no input picture.
+    Extent paper() const {
+        if (request_.writing) return paper_extent(*request_.writing);
+        if (controls_.mask) return controls_.mask->extent();
+        throw Error(ErrorCode::bad_usage, "", "no picture is named", "give one, or words to write, or a mask");
     }
 
     void read_endpoints() {
@@ -133,10 +150,11 @@ class Run {
     }
 
     void check_memory() const {
-        // Measured: raster, codec and shared memory per output pixel; fields, labels and heights per node.
-        constexpr double kBytesPerPixel = 24, kBytesPerNode = 220;
+        // Measured, and rounded up: raster, shared memory and encoder per output pixel; fields, labels and edge heights
+        // per node.
+        constexpr double kBytesPerPixel = 16, kBytesPerNode = 180;
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
-        const double nodes = double(lattice_extent(input_.picture.extent(), style_.lattice.detail).count());
+        const double nodes = double(lattice_.count());
         const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);
         if (wanted > double(request_.max_memory_bytes))
             throw Error(ErrorCode::bad_usage, name_of(request_.input),
@@ -161,6 +179,7 @@ class Run {
         recipe_.program = fmt::format("dstylize {}", version());
         recipe_.seed = request_.seed;
         recipe_.importance_replaces = request_.importance_replaces;
+        recipe_.no_picture = request_.no_picture;
         for (const RootChoice& root : request_.roots) recipe_.roots.push_back(root_text(root));
         switch (request_.background.kind) {
             case Background::Kind::input: recipe_.background = "input"; break;
@@ -169,6 +188,7 @@ class Run {
             case Background::Kind::style:
             case Background::Kind::file: break;
         }
+        recipe_.writing = request_.writing;
         recipe_.size = output_size_text(request_.size);
         recipe_.style_toml = style_toml(style_);
 
@@ -177,7 +197,7 @@ class Run {
         report_.style = style_.name;
         report_.seed = request_.seed;
         report_.picture = input_.picture.extent();
-        report_.lattice = lattice_extent(report_.picture, style_.lattice.detail);
+        report_.lattice = lattice_;
         report_.recipe = recipe_toml(recipe_);
         report_.dry_run = request_.dry_run;
         for (const PlannedOutput& output : outputs_)
@@ -190,7 +210,10 @@ class Run {
         options.frame = frame_;
         options.quality = request_.quality;
         options.compression = request_.compression;
-        options.title = fmt::format("{} ({})", fs::path(recipe_.input.name).stem().string(), style_.name);
+        const std::string subject = request_.writing              ? request_.writing->lettering.text
+                                    : !recipe_.input.name.empty() ? fs::path(recipe_.input.name).stem().string()
+                                                                  : request_.mask.path.stem().string();
+        options.title = fmt::format("{} ({})", subject, style_.name);
         options.metadata.dpi = input_.metadata.dpi;
         for (const char* key : {"author", "copyright", "description"})
             if (const std::string text = input_.metadata.find(key); !text.empty())
@@ -203,8 +226,14 @@ class Run {
     void lay_ground(Paper& paper) {
         switch (request_.background.kind) {
             case Background::Kind::style: return;
-            case Background::Kind::none: paper.colour.a = 0; break;
-            case Background::Kind::colour: paper.colour = request_.background.colour; break;
+            case Background::Kind::none:
+                paper.colour.a = 0;
+                paper.picture = nullptr;
+                break;
+            case Background::Kind::colour:
+                paper.colour = request_.background.colour;
+                paper.picture = nullptr;
+                break;
             case Background::Kind::input:
             case Background::Kind::file: {
                 Picture ground = middle_part(ground_, frame_.size_px);
@@ -287,6 +316,7 @@ class Run {
     std::vector<PlannedOutput> outputs_;
     DecodedPicture input_;
     OutputFrame frame_;
+    Extent lattice_;
     Controls controls_;
     Picture ground_;
     Recipe recipe_;

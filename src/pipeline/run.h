@@ -11,6 +11,7 @@
 #include "pipeline/controls.h"
 #include "pipeline/output_size.h"
 #include "pipeline/style_file.h"
+#include "pipeline/writing.h"
 
 namespace dstylize {
 
@@ -22,18 +23,21 @@ struct AuxiliaryFile {
 
 /// One picture's run as data: what the command line, a batch or a page asks for.
 struct RunRequest {
-    std::filesystem::path input;                 ///< "-": standard input
+    std::filesystem::path input;                 ///< "-": standard input; empty: plain paper, for a mask or words
     std::vector<std::filesystem::path> outputs;  ///< "-": standard output
     std::string format;                          ///< of outputs whose extension tells none
 
     std::string style = "vine";             ///< a built-in style or a file
     std::optional<std::string> style_toml;  ///< the style itself; `style` then names it in messages
+    std::filesystem::path user_styles;      ///< folder of the user's own styles; empty: none
     std::vector<Setting> settings;
     int detail = 0;  ///< lattice nodes on the long side; 0: the style's
     std::uint64_t seed = 1;
 
+    std::optional<Writing> writing;             ///< words that are the mask
     AuxiliaryFile importance, mask, endpoints;  ///< empty path: none
     bool importance_replaces = false;
+    bool no_picture = false;  ///< grow without being led by the picture
     std::vector<RootChoice> roots;
     Background background;
     std::string background_xxh128;  ///< as in AuxiliaryFile, of background.file

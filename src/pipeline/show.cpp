@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/noise.h"
 #include "pipeline/growth.h"
-#include "pipeline/prepared.h"
+#include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 
@@ -41,7 +41,8 @@ Picture field_picture(const Grid<float>& field) {
 Picture flow_picture(const FlowField& flow) {
     Picture out(flow.extent());
     for (std::size_t n = 0; n < flow.size(); ++n) {
-        const float turn = std::atan2(flow[n].y, flow[n].x) / 3.14159265f + 1;  // a direction, not a vector: half a turn
+        const float turn =
+            std::atan2(flow[n].y, flow[n].x) / 3.14159265f + 1;  // a direction, not a vector: half a turn
         out[n] = hue(std::fmod(turn, 1.0f), 0.25f + 0.75f * length(flow[n]));
     }
     return out;
@@ -141,19 +142,20 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
                     fmt::format("use one of {}", fmt::join(known, ", ")));
-    Prepared base = prepared(picture, style, controls);
+    PreparedPicture base = prepared_picture(picture, style, controls, work);
     if (name == "flow") return flow_picture(base.fields.flow());
     const std::string view = name.substr(0, name.find(':'));
     const std::string stage_name = view == name ? style.stages.back().name : name.substr(view.size() + 1);
-    if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end()) return field_picture(base.fields[name]);
+    if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end())
+        return field_picture(base.fields[name]);
 
     std::optional<Picture> out;
     const auto observe = [&](const StageView& stage) {
         if (stage.stage.name == stage_name && view != "tree") out = stage_picture(view, stage);
     };
-    const Grown grown = grow(base.fields, base.passable, style, controls, picture.extent(), observe, work);
+    const Grown grown = grow(base, style, controls, picture.extent(), observe, work);
     if (out) return *out;
-    return tree_picture(Lattice(base.fields.extent(), style.lattice.neighbourhood), grown.dendrite);
+    return tree_picture(base.lattice, grown.dendrite);
 }
 
 }  // namespace dstylize

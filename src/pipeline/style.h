@@ -14,9 +14,13 @@ namespace dstylize {
 
 /// What the dendrite grows on: the [lattice] table.
 struct LatticeParameters {
+    enum class Kind { regular, scattered };
+    Kind kind = Kind::regular;
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
     float margin = 5;  ///< u: nothing grows this near to the frame
+    float stem = 0;    ///< u: with a mask, how wide its strokes are; 0: u is 1/1024 of the long side
+    float picture_scale = 1, picture_x = 0.5f, picture_y = 0.5f;  ///< the picture inside the frame
 
     void visit(ParameterVisitor& visitor);
 };
@@ -25,21 +29,30 @@ struct LatticeParameters {
 struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
-    float inset = 16;  ///< u: distance from the frame of `bottom` and `top`
+    float centring = 0.35f;               ///< how much a place in the middle counts against an important one
+    float inset = 16;                     ///< u: distance from the frame of `bottom` and `top`
+    std::string interest = "importance";  ///< field: where it is high roots are best
+    float smallest_part = 9;              ///< u^2: smaller connected parts get no root
+    bool every_part = false;              ///< parts without a root of the user's get one of their own
 
     void visit(ParameterVisitor& visitor);
 };
 
 /// Where paths must arrive: a stage's [stage.endpoints] table. Lengths in u.
 struct EndpointParameters {
-    enum class Rule { stipples, discs };
+    enum class Rule { stipples, discs, above };
     Rule rule = Rule::discs;
     std::string density = "density";  ///< field: 0 calm spacing, 1 dense spacing
     float density_blur = 0, density_exponent = 1, density_toe = 0;
     std::string priority = "density";  ///< discs: field, highest first
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
-    float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
+    float close_loops = 0;    ///< u: ways around a hole longer than this are joined; 0: never
+    float keep_off = 0;       ///< discs: share of the spacing to keep from what is drawn already
+    float first_spacing = 1;  ///< the first batch's spacings as a multiple of the last's
+    int most = 0;             ///< at most so many in the first batch, the later ones as spacings allow; 0: any number
+    float within = 0;         ///< edges (at 1024 nodes) from the structure; 0: anywhere
+    float reach = 300;        ///< above: u from the root
 
     void visit(ParameterVisitor& visitor);
 };
@@ -51,13 +64,28 @@ struct StageParameters {
     Metric metric = Metric::max_sum;
     int blend_factor = 5000;
     Sources sources = Sources::root;
-    float carry = 0;
+    float carry = 0, carry_cost = 0;
+    int layer = 0;
     FieldWeights cost;
     float cost_constant = 1, cost_power = 1, cost_max = 1;
     int levels = 255;
     float along_flow = 0;
     float down = 0;
+    float up = 0, wind = 0;
+    float noise_white = 0, noise_smooth = 0, noise_scale = 36;
+    float bare = 0;
+    int batches = 1;
+    float path_lack = -1, path_longest = 0;
+    std::string path_inside;
     EndpointParameters endpoints;
+
+    void visit(ParameterVisitor& visitor);
+};
+
+/// How many drawings are grown and which one is kept: the [choice] table.
+struct ChoiceParameters {
+    int growths = 1;
+    float window = 5;
 
     void visit(ParameterVisitor& visitor);
 };
@@ -72,6 +100,7 @@ struct Style {
     std::vector<StageParameters> stages;
     StrokeParameters stroke;
     WidthParameters width;
+    ChoiceParameters choice;
     std::string metaphor_name;
     std::unique_ptr<Metaphor> metaphor;
 

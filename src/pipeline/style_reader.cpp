@@ -30,13 +30,16 @@ struct Reader final : ParameterVisitor {
 
     [[noreturn]] void fail(const toml::source_region& at, const std::string& problem, const std::string& remedy) const {
         std::string where = origin;
-        if (at.begin.line > 0) where = fmt::format("{}:{}:{}", at.path ? *at.path : origin, at.begin.line, at.begin.column);
+        if (at.begin.line > 0)
+            where = fmt::format("{}:{}:{}", at.path ? *at.path : origin, at.begin.line, at.begin.column);
         throw Error(ErrorCode::bad_usage, where, problem, remedy);
     }
     [[noreturn]] void fail(const toml::node* node, const std::string& problem, const std::string& remedy) const {
         fail(node ? node->source() : toml::source_region{}, problem, remedy);
     }
-    std::string full(std::string_view key) const { return path.empty() ? std::string(key) : path + "." + std::string(key); }
+    std::string full(std::string_view key) const {
+        return path.empty() ? std::string(key) : path + "." + std::string(key);
+    }
     toml::node* find(std::string_view key) {
         known.emplace_back(key);
         return table.get(key);
@@ -58,7 +61,8 @@ struct Reader final : ParameterVisitor {
         const auto given = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
         const std::string range = fmt::format("give a whole number from {} to {}", lo, hi);
         if (!given) fail(node, full(doc.key) + " is not a whole number", range);
-        if (*given < lo || *given > hi) fail(node, fmt::format("{} = {} is out of range", full(doc.key), *given), range);
+        if (*given < lo || *given > hi)
+            fail(node, fmt::format("{} = {} is out of range", full(doc.key), *given), range);
         value = int(*given);
     }
     void flag(ParameterDoc doc, bool& value) override {
@@ -99,7 +103,8 @@ struct Reader final : ParameterVisitor {
     void field_weights(ParameterDoc doc, FieldWeights& value) override {
         toml::node* node = find(doc.key);
         if (!node) return;
-        if (!node->is_table()) fail(node, full(doc.key) + " is not a table of field weights", "write { field = weight }");
+        if (!node->is_table())
+            fail(node, full(doc.key) + " is not a table of field weights", "write { field = weight }");
         const auto names = Fields::names();
         value.clear();
         for (auto&& [key, weight] : *node->as_table()) {
@@ -109,7 +114,8 @@ struct Reader final : ParameterVisitor {
                      "did you mean '" + nearest_name(field, {names.begin(), names.end()}) + "'?");
             const auto given = weight.value<double>();
             if (!given || !(std::abs(*given) <= 100))
-                fail(&weight, fmt::format("{}.{} is not a weight", full(doc.key), field), "give a number from -100 to 100");
+                fail(&weight, fmt::format("{}.{} is not a weight", full(doc.key), field),
+                     "give a number from -100 to 100");
             value.emplace_back(field, float(*given));
         }
     }
@@ -158,26 +164,36 @@ toml::table* find_stage(toml::table& tree, std::string_view name) {
     return nullptr;
 }
 
-/// `over` on top of `base`, tables key by key, stages by name. Nodes are moved: a copy forgets the line
-/// that it came from.
+/// `over` on top of `base`, tables key by key, stages by name. Nodes are moved and keys kept whole, so
+/// that both remember the lines that they came from.
 void merge(toml::table& base, toml::table&& over) {
     for (auto&& [key, node] : over) {
         toml::node* below = base.get(key);
         if (key == "stage" && below && below->is_array() && node.is_array()) {
             for (toml::node& stage : *node.as_array()) {
                 toml::table* same = find_stage(base, stage_name(stage));
-                if (same && stage.is_table()) merge(*same, std::move(*stage.as_table()));
-                else stage.visit([&](auto& value) { below->as_array()->push_back(std::move(value)); });
+                if (same && stage.is_table())
+                    merge(*same, std::move(*stage.as_table()));
+                else
+                    stage.visit([&](auto& value) { below->as_array()->push_back(std::move(value)); });
             }
         } else if (below && below->is_table() && node.is_table()) {
             merge(*below->as_table(), std::move(*node.as_table()));
         } else {
-            node.visit([&, name = key.str()](auto& value) { base.insert_or_assign(name, std::move(value)); });
+            node.visit([&, &name = key](auto& value) { base.insert_or_assign(name, std::move(value)); });
         }
     }
 }
 
-std::string style_text(const std::string& name_or_file, std::string& origin) {
+std::string file_text(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf()))
+        throw Error(ErrorCode::bad_usage, path, "the style file cannot be read", "check the path");
+    return text.str();
+}
+
+std::string style_text(const std::string& name_or_file, const std::filesystem::path& user_folder, std::string& origin) {
     const bool is_file = name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
     if (!is_file) {
         std::vector<std::string> names;
@@ -188,27 +204,30 @@ std::string style_text(const std::string& name_or_file, std::string& origin) {
             }
             names.emplace_back(style.name);
         }
+        for (const std::string& name : user_style_names(user_folder)) {
+            names.push_back(name);
+            if (name != name_or_file) continue;
+            origin = (user_folder / (name + ".toml")).string();
+            return file_text(origin);
+        }
         const std::string near = nearest_name(name_or_file, names);
         throw Error(ErrorCode::bad_usage, "", "no style is called '" + name_or_file + "'",
                     near.empty() ? fmt::format("use one of {}, or a .toml file", fmt::join(names, ", "))
                                  : "did you mean '" + near + "'?");
     }
     origin = name_or_file;
-    std::ifstream in(name_or_file, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf()))
-        throw Error(ErrorCode::bad_usage, name_or_file, "the style file cannot be read", "check the path");
-    return text.str();
+    return file_text(origin);
 }
 
-toml::table resolved(toml::table own, const std::string& origin, int depth) {
+toml::table resolved(toml::table own, const std::string& origin, const std::filesystem::path& user_folder, int depth) {
     const std::string base_name = own["style"]["extends"].value_or(std::string());
     if (base_name.empty()) return own;
     if (depth >= kMostExtends)
-        throw Error(ErrorCode::bad_usage, origin, "styles extend one another in a circle", "break the chain of `extends`");
+        throw Error(ErrorCode::bad_usage, origin, "styles extend one another in a circle",
+                    "break the chain of `extends`");
     std::string base_origin;
-    const std::string text = style_text(base_name, base_origin);
-    toml::table tree = resolved(parsed(text, base_origin), base_origin, depth + 1);
+    const std::string text = style_text(base_name, user_folder, base_origin);
+    toml::table tree = resolved(parsed(text, base_origin), base_origin, user_folder, depth + 1);
     merge(tree, std::move(own));
     return tree;
 }
@@ -238,7 +257,8 @@ void apply(toml::table& tree, const Setting& setting) {
         toml::node* inner = at->get(path[k]);
         if (!inner) inner = &at->insert(path[k], toml::table{}).first->second;
         at = inner->as_table();
-        if (!at) throw Error(ErrorCode::bad_usage, origin, "'" + path[k] + "' is not a table", "write section.key=value");
+        if (!at)
+            throw Error(ErrorCode::bad_usage, origin, "'" + path[k] + "' is not a table", "write section.key=value");
     }
     try {
         toml::table value = toml::parse("v = " + setting.value, origin);
@@ -272,8 +292,9 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     return best;
 }
 
-Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings) {
-    toml::table tree = resolved(parsed(text, origin), origin, 0);
+Style parse_style(std::string_view text, const std::string& origin, const std::vector<Setting>& settings,
+                  const std::filesystem::path& user_folder) {
+    toml::table tree = resolved(parsed(text, origin), origin, user_folder, 0);
     if (tree["recipe"].is_table()) tree.erase("recipe");  // a recipe is a style file too
     for (const Setting& setting : settings) apply(tree, setting);
 
@@ -286,7 +307,8 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
         v.text({"extends", "", ""}, extends);
         v.text({"metaphor", "", ""}, style.metaphor_name);
     });
-    if (style.metaphor_name.empty()) top.fail(tree.get("style"), "the style names no metaphor", "add style.metaphor = \"ink\"");
+    if (style.metaphor_name.empty())
+        top.fail(tree.get("style"), "the style names no metaphor", "add style.metaphor = \"ink\"");
     style.metaphor = make_metaphor(style.metaphor_name);
     if (toml::node* stages = top.find("stage")) {
         if (!stages->is_array()) top.fail(stages, "'stage' is not a list of stages", "write [[stage]]");
@@ -297,9 +319,11 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
             StageParameters stage;
             stage.visit(reader);
             reader.reject_unknown();
-            if (!names.insert(stage.name).second) top.fail(&node, "two stages are called '" + stage.name + "'", "rename one");
-            for (const std::string& field : {stage.endpoints.density, stage.endpoints.priority})
-                if (const auto all = Fields::names(); std::find(all.begin(), all.end(), field) == all.end())
+            if (!names.insert(stage.name).second)
+                top.fail(&node, "two stages are called '" + stage.name + "'", "rename one");
+            for (const std::string& field : {stage.endpoints.density, stage.endpoints.priority, stage.path_inside})
+                if (const auto all = Fields::names();
+                    !field.empty() && std::find(all.begin(), all.end(), field) == all.end())
                     top.fail(&node, "no field is called '" + field + "'",
                              "did you mean '" + nearest_name(field, {all.begin(), all.end()}) + "'?");
             style.stages.push_back(std::move(stage));
@@ -316,10 +340,26 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
     return style;
 }
 
-Style load_style(const std::string& name_or_file, const std::vector<Setting>& settings) {
+std::vector<std::string> user_style_names(const std::filesystem::path& user_folder) {
+    std::vector<std::string> names;
+    std::error_code none;  // no folder, no styles
+    if (!user_folder.empty())
+        for (const auto& entry : std::filesystem::directory_iterator(user_folder, none))
+            if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string style_source(const std::string& name_or_file, const std::filesystem::path& user_folder) {
     std::string origin;
-    const std::string text = style_text(name_or_file, origin);
-    Style style = parse_style(text, origin, settings);
+    return style_text(name_or_file, user_folder, origin);
+}
+
+Style load_style(const std::string& name_or_file, const std::vector<Setting>& settings,
+                 const std::filesystem::path& user_folder) {
+    std::string origin;
+    const std::string text = style_text(name_or_file, user_folder, origin);
+    Style style = parse_style(text, origin, settings, user_folder);
     if (style.name.empty()) style.name = std::filesystem::path(name_or_file).stem().string();
     return style;
 }

@@ -36,12 +36,13 @@ struct Footprint {
 
 /// One segment in the tile's frame, with what its rows need.
 struct Capsule {
-    Vec2f from, along;      ///< start; unit direction
-    float length, radius;   ///< radius at the start
-    float taper, slant;     ///< radius lost per unit of length; foot shift per unit of distance
-    float radius_to;        ///< at the end
-    float before, after;    ///< how far beyond its ends it is painted
-    bool cut_from, cut_to;  ///< square thin ends
+    Vec2f from, along;                       ///< start; unit direction
+    float length, radius;                    ///< radius at the start
+    float taper, slant;                      ///< radius lost per unit of length; foot shift per unit of distance
+    float radius_to;                         ///< at the end
+    float before, after;                     ///< how far beyond its ends it is painted
+    bool cut_from, cut_to;                   ///< square thin ends
+    float emission = 1, emission_slope = 0;  ///< factor on the coverage: at the start; per unit of length
 };
 
 Vec2f direction(const WidthPoint& a, const WidthPoint& b) { return normalized(b.at - a.at); }
@@ -107,7 +108,8 @@ void paint_wide_row(float* coverage, std::uint32_t* winner, int count, const Cap
         const float centre = std::min(std::max(s - std::abs(q) * c.slant, 0.0f), c.length);
         const float ds = s - centre;
         const float outside = std::sqrt(ds * ds + q * q) - (c.radius - centre * c.taper);
-        keep_largest(coverage[i], winner[i], 0.5f - foot.share(outside), colour);
+        const float emission = c.emission + centre * c.emission_slope;
+        keep_largest(coverage[i], winner[i], (0.5f - foot.share(outside)) * emission, colour);
     }
 }
 
@@ -122,10 +124,12 @@ void paint_thin_row(float* coverage, std::uint32_t* winner, int count, const Cap
         const float centre = std::min(std::max(s - std::abs(q) * c.slant, foot_lo), foot_hi);
         const float ds = s - centre;
         const float away = std::sqrt(ds * ds + q * q);
-        const float radius = c.radius - std::min(std::max(centre, 0.0f), c.length) * c.taper;
+        const float inside = std::min(std::max(centre, 0.0f), c.length);
+        const float radius = c.radius - inside * c.taper;
         const float strip = foot.share(away + radius) - foot.share(away - radius);
         const float run = std::min(cut_hi, s + 0.5f) - std::max(cut_lo, s - 0.5f);
-        keep_largest(coverage[i], winner[i], strip * std::min(std::max(run, 0.0f), 1.0f), colour);
+        const float emission = c.emission + inside * c.emission_slope;
+        keep_largest(coverage[i], winner[i], strip * std::min(std::max(run, 0.0f), 1.0f) * emission, colour);
     }
 }
 
@@ -199,9 +203,17 @@ void straighten_thin_ends(TaperedLine& line) {
 }
 
 void paint_segments(CoveragePlane& plane, std::span<const WidthPoint> line, std::size_t first, std::size_t last,
-                    std::uint32_t colour) {
-    assert(!line.empty());
-    for (std::size_t i = first; i <= last; ++i) paint_capsule(plane, capsule(line, i, plane.origin), colour);
+                    std::uint32_t colour, std::span<const float> emission) {
+    assert(!line.empty() && (emission.empty() || emission.size() == line.size()));
+    for (std::size_t i = first; i <= last; ++i) {
+        Capsule c = capsule(line, i, plane.origin);
+        if (!emission.empty()) {
+            c.emission = emission[i];
+            const float change = emission[std::min(i + 1, line.size() - 1)] - c.emission;
+            c.emission_slope = c.length > 0 ? change / c.length : 0;
+        }
+        paint_capsule(plane, c, colour);
+    }
 }
 
 }  // namespace dstylize

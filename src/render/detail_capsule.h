@@ -20,7 +20,8 @@ void straighten_thin_ends(TaperedLine& line);
 /// sample that a straight strip with the stroke's local edges covers: exact for straight strokes of
 /// any width and direction. At joints only the wedge that no body covers is painted, so the joints
 /// of a line cannot be seen and long wide strokes cost their area.
+/// `emission`: empty, or a factor per point of the line on the coverage there, linear between points.
 void paint_segments(CoveragePlane& plane, std::span<const WidthPoint> line, std::size_t first, std::size_t last,
-                    std::uint32_t colour);
+                    std::uint32_t colour, std::span<const float> emission = {});
 
 }  // namespace dstylize

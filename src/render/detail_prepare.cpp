@@ -26,9 +26,9 @@ struct Scale {
     float x, y, width;
 };
 
-double mean_stroke_width(const DisplayList& list) {
+double mean_stroke_width(std::span<const Layer> layers) {
     double area = 0, total = 0;
-    for (const Layer& layer : list.layers)
+    for (const Layer& layer : layers)
         for (const Item& item : layer.items)
             if (const auto* stroke = std::get_if<VariableStroke>(&item))
                 for (std::size_t i = 0; i + 1 < stroke->points_px.size(); ++i) {
@@ -39,13 +39,34 @@ double mean_stroke_width(const DisplayList& list) {
     return total > 0 ? area / total : 0;
 }
 
-int samples_per_pixel(const DisplayList& list, Extent size_px, double scale) {
-    const double width = mean_stroke_width(list) * scale;
+int samples_per_pixel(std::span<const Layer> layers, Extent size_px, double scale) {
+    const double width = mean_stroke_width(layers) * scale;
     int wanted = int(kLeastSamplesPerPixel);
     if (width > 0)
         wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), kLeastSamplesPerPixel, kMostSamplesPerPixel));
     while (wanted > kLeastSamplesPerPixel && double(size_px.count()) * wanted * wanted > kMostSamples) --wanted;
     return wanted;
+}
+
+/// The emission at the points of `line`, which runs along `points` more finely or more coarsely: both are
+/// compared by the share of their length.
+std::vector<float> emission_along(const TaperedLine& line, std::span<const Vec2f> points,
+                                  std::span<const float> emission) {
+    std::vector<float> arc(points.size(), 0.0f), out;
+    for (std::size_t i = 1; i < points.size(); ++i) arc[i] = arc[i - 1] + distance(points[i - 1], points[i]);
+    float total = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) total += distance(line[i - 1].at, line[i].at);
+    const float stretch = total > 0 ? arc.back() / total : 0;
+    float at = 0;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (i > 0) at += distance(line[i - 1].at, line[i].at) * stretch;
+        while (k + 2 < points.size() && arc[k + 1] < at) ++k;
+        const std::size_t next = std::min(k + 1, points.size() - 1);
+        const float run = arc[next] - arc[k], t = run > 0 ? std::clamp((at - arc[k]) / run, 0.0f, 1.0f) : 0;
+        out.push_back(emission[k] + (emission[next] - emission[k]) * t);
+    }
+    return out;
 }
 
 PreparedItem prepared_item(const Item& item, Scale scale) {
@@ -66,14 +87,15 @@ PreparedItem prepared_item(const Item& item, Scale scale) {
     }
     out.line = simplified(smooth_line(points, widths, kFlatness), kFlatness);
     straighten_thin_ends(out.line);
+    if (!stroke.emission.empty()) out.emission = emission_along(out.line, points, stroke.emission);
     return out;
 }
 
-void assign_layers_and_colours(const DisplayList& list, Prepared& out) {
+void assign_layers_and_colours(std::span<const Layer> layers, Prepared& out) {
     std::map<std::array<float, 4>, std::uint32_t> known;
     std::size_t i = 0;
-    for (std::size_t l = 0; l < list.layers.size(); ++l)
-        for (const Item& item : list.layers[l].items) {
+    for (std::size_t l = 0; l < layers.size(); ++l)
+        for (const Item& item : layers[l].items) {
             const Rgba c = std::visit([](const auto& it) { return it.colour; }, item);
             const auto [entry, is_new] = known.try_emplace({c.r, c.g, c.b, c.a}, std::uint32_t(out.palette.size()));
             if (is_new) out.palette.push_back(c);
@@ -135,24 +157,24 @@ class Binner {
 
 }  // namespace
 
-Prepared prepared(const DisplayList& list, Extent size_px, const Work& work) {
+Prepared prepared(const DisplayList& list, std::span<const Layer> layers, Extent size_px, const Work& work) {
     const double scale_x = size_px.x / double(list.width_px), scale_y = size_px.y / double(list.height_px);
     const double scale_width = std::sqrt(scale_x * scale_y);
     Prepared out;
-    out.samples_per_pixel = samples_per_pixel(list, size_px, scale_width);
+    out.samples_per_pixel = samples_per_pixel(layers, size_px, scale_width);
     out.tile_px = kTileSamples / out.samples_per_pixel;
     out.tiles = {(size_px.x + out.tile_px - 1) / out.tile_px, (size_px.y + out.tile_px - 1) / out.tile_px};
     const Scale scale{float(scale_x * out.samples_per_pixel), float(scale_y * out.samples_per_pixel),
                       float(scale_width * out.samples_per_pixel)};
 
     std::vector<const Item*> sources;
-    for (const Layer& layer : list.layers)
+    for (const Layer& layer : layers)
         for (const Item& item : layer.items) sources.push_back(&item);
     out.items.resize(sources.size());
     tbb::parallel_for(std::size_t(0), sources.size(),
                       [&](std::size_t i) { out.items[i] = prepared_item(*sources[i], scale); });
     work.check();
-    assign_layers_and_colours(list, out);
+    assign_layers_and_colours(layers, out);
     Binner binner(out);
     for (std::size_t i = 0; i < out.items.size(); ++i) binner.add(std::uint32_t(i));
     return out;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/display_list.h"
@@ -12,9 +13,10 @@ namespace dstylize {
 /// One item in the raster's sample frame; a stroke has a line, a fill an outline.
 struct PreparedItem {
     TaperedLine line;
+    std::vector<float> emission;  ///< per point of the line; empty: 1 everywhere
     std::vector<Vec2f> outline;
     std::uint32_t colour = 0;  ///< index into the palette
-    std::uint32_t layer = 0;
+    std::uint32_t layer = 0;   ///< counted from the first of the given layers
 };
 
 /// Consecutive segments of an item that a tile has to look at; a fill has one run of one segment.
@@ -32,7 +34,7 @@ struct Prepared {
     std::vector<std::vector<Run>> runs;  ///< per tile, in painting order
 };
 
-/// Flattens, scales and bins the list for an output of the given size. O(points + tiles touched).
-Prepared prepared(const DisplayList& list, Extent size_px, const Work& work);
+/// Flattens, scales and bins some layers of the list for an output of the given size. O(points + tiles touched).
+Prepared prepared(const DisplayList& list, std::span<const Layer> layers, Extent size_px, const Work& work);
 
 }  // namespace dstylize

@@ -10,9 +10,11 @@
 #include <cassert>
 
 #include "render/detail_capsule.h"
+#include "render/detail_glow.h"
 #include "render/detail_grain.h"
 #include "render/detail_polygon.h"
 #include "render/detail_prepare.h"
+#include "render/detail_relief.h"
 
 namespace dstylize {
 namespace {
@@ -32,8 +34,8 @@ Rgba8 straight(Premultiplied c) {
 /// One thread's working memory and the painting of a tile in it.
 class TilePainter {
   public:
-    TilePainter(const DisplayList& list, const Prepared& drawing, Picture& out)
-        : list_(list), drawing_(drawing), out_(out), grain_(list.paper.seed) {}
+    TilePainter(const Paper& paper, std::span<const Layer> layers, const Prepared& drawing, Picture& out)
+        : paper_(paper), layers_(layers), drawing_(drawing), out_(out), grain_(paper.seed) {}
 
     void paint(int tile_x, int tile_y) {
         const int side = drawing_.tile_px, k = drawing_.samples_per_pixel;
@@ -63,8 +65,8 @@ class TilePainter {
                 paint_polygon(plane_, item.outline, item.colour, scratch_);
             const bool merges_with_next =
                 i + 1 < runs.size() &&
-                (list_.layers[item.layer].blend == Blend::max ? drawing_.items[runs[i + 1].item].layer == item.layer
-                                                              : runs[i + 1].item == runs[i].item);
+                (layers_[item.layer].blend == Blend::max ? drawing_.items[runs[i + 1].item].layer == item.layer
+                                                         : runs[i + 1].item == runs[i].item);
             if (!merges_with_next) composite();
         }
     }
@@ -104,20 +106,20 @@ class TilePainter {
 
     /// The ground under a pixel of the output.
     Rgba ground(int x, int y) const {
-        if (!list_.paper.picture) return list_.paper.colour;
-        const Picture& picture = *list_.paper.picture;
+        if (!paper_.picture) return paper_.colour;
+        const Picture& picture = *paper_.picture;
         const auto at = [](int i, int count, int size) { return int(std::int64_t(2 * i + 1) * count / (2 * size)); };
         const Rgba8 p = picture(at(x, picture.extent().x, out_.extent().x), at(y, picture.extent().y, out_.extent().y));
         return {float(p.r) / 255, float(p.g) / 255, float(p.b) / 255, float(p.a) / 255};
     }
 
     void lay_on_paper() {
-        const bool textured = list_.paper.grain > 0 && list_.paper.colour.a > 0;
+        const bool textured = paper_.grain > 0 && paper_.colour.a > 0;
         const float* grain = textured ? grain_.block(x0_, y0_, width_, height_).data() : nullptr;
         for (int y = 0; y < height_; ++y) {
             Rgba8* row = out_.row(y0_ + y) + x0_;
             for (int x = 0; x < width_; ++x) {
-                const float light = textured ? 1 + list_.paper.grain * *grain++ : 1.0f;
+                const float light = textured ? 1 + paper_.grain * *grain++ : 1.0f;
                 const Premultiplied ink = mean_ink(x, y);
                 const Rgba paper = ground(x0_ + x, y0_ + y);
                 const float rest = (1 - ink.a) * paper.a;
@@ -128,7 +130,8 @@ class TilePainter {
         }
     }
 
-    const DisplayList& list_;
+    const Paper& paper_;
+    std::span<const Layer> layers_;
     const Prepared& drawing_;
     Picture& out_;
     Grain grain_;
@@ -138,21 +141,50 @@ class TilePainter {
     std::vector<float> scratch_;
 };
 
+/// Layers of paint on paper.
+Picture painted(const DisplayList& list, const Paper& paper, std::span<const Layer> layers, Extent size_px,
+                const Work& work) {
+    Picture out(size_px);
+    const Prepared drawing = prepared(list, layers, size_px, work);
+    tbb::enumerable_thread_specific<TilePainter> painters([&] { return TilePainter(paper, layers, drawing, out); });
+    tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
+        work.check();
+        painters.local().paint(int(tile) % drawing.tiles.x, int(tile) / drawing.tiles.x);
+    });
+    return out;
+}
+
+/// The first layer of light or relief, or the end.
+std::size_t next_effect(std::span<const Layer> layers) {
+    std::size_t l = 0;
+    while (l < layers.size() && !layers[l].glow && !layers[l].relief) ++l;
+    return l;
+}
+
+Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
+    std::span<const Layer> rest = list.layers;
+    std::size_t paint = next_effect(rest);
+    Picture out = painted(list, list.paper, rest.first(paint), size_px, work);
+    for (rest = rest.subspan(paint); !rest.empty(); rest = rest.subspan(paint)) {
+        if (rest[0].glow)
+            expose(out, emission_plane(list, rest.first(1), size_px, work), *rest[0].glow, work);
+        else
+            raise(out, body(list, rest[0], size_px, work), list, *rest[0].relief, work);
+        rest = rest.subspan(1);
+        paint = next_effect(rest);
+        if (paint == 0) continue;
+        const Paper below{{}, 0, 0, std::make_shared<Picture>(std::move(out))};
+        out = painted(list, below, rest.first(paint), size_px, work);
+    }
+    return out;
+}
+
 }  // namespace
 
 Picture raster(const DisplayList& list, const RasterOptions& options, const Work& work) {
     assert(options.size_px.x > 0 && options.size_px.y > 0 && list.width_px > 0 && list.height_px > 0);
-    Picture out(options.size_px);
     tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        const Prepared drawing = prepared(list, options.size_px, work);
-        tbb::enumerable_thread_specific<TilePainter> painters([&] { return TilePainter(list, drawing, out); });
-        tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
-            work.check();
-            painters.local().paint(int(tile) % drawing.tiles.x, int(tile) / drawing.tiles.x);
-        });
-    });
-    return out;
+    return arena.execute([&] { return composed(list, options.size_px, work); });
 }
 
 }  // namespace dstylize

@@ -17,7 +17,8 @@ struct RasterOptions {
 /// Coverage is the analytic area of a stroke in a square sample, which is half a pixel wide, and down to 1/8
 /// of one when strokes are thinner than 1.5 pixels on average: hairlines fade instead of breaking, and dense
 /// ones keep their tone. Strokes are the smooth curves through their points at any size (smooth_line).
-/// Grain is keyed by output pixel.
+/// Grain is keyed by output pixel. A glowing layer is light (see Glow): one float per pixel while it is
+/// exposed, and its halos on reduced copies.
 /// A paper picture is sampled at pixel centres: bring it to the output's size before.
 /// The same list and size give the same bytes for any number of threads. Beyond the result it holds
 /// the flattened centrelines and, per thread, one tile of at most 128 x 128 samples.

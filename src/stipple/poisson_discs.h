@@ -14,12 +14,12 @@ using Occupancy = Grid<std::uint8_t>;
 void occupy(Occupancy& occupancy, int column, int row, float radius);
 
 struct DiscRequest {
-    const Grid<float>& priority;  ///< who comes first, in [0, 1]
-    const Grid<float>& density;   ///< in [0, 1]; 0: calm spacing, 1: dense spacing
-    float priority_at_least = 0;  ///< none below
-    float jitter = 0;             ///< random share added to the priority
+    const Grid<float>& priority;                 ///< who comes first, in [0, 1]
+    const Grid<float>& density;                  ///< in [0, 1]; 0: calm spacing, 1: dense spacing
+    float priority_at_least = 0;                 ///< none below
+    float jitter = 0;                            ///< random share added to the priority
     float calm_spacing = 26, dense_spacing = 3;  ///< nodes; between them geometric in the density
-    Noise noise;                  ///< of the jitter, by node
+    Noise noise;                                 ///< of the jitter, by node
 };
 
 /// Disc radius at a density: calm * (dense / calm)^density.

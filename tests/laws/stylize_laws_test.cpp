@@ -18,7 +18,9 @@ namespace {
 
 class EveryStyle : public ::testing::TestWithParam<std::string> {
   protected:
-    static Style style(int detail = 200) { return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}}); }
+    static Style style(int detail = 200) {
+        return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}});
+    }
     static Drawing drawing(const Picture& picture, const Controls& controls = {}, int threads = 0) {
         Work work;
         work.threads = threads;
@@ -108,7 +110,8 @@ TEST_P(EveryStyle, OddPicturesGiveADrawingOrAnError) {
         const Drawing d = drawing(test::scene(size));
         EXPECT_EQ(first_fault(d.dendrite), "") << size.x << "x" << size.y;
     }
-    for (const std::uint8_t v : {0, 128, 255}) EXPECT_EQ(first_fault(drawing(test::flat({50, 50}, {v, v, v, 255})).dendrite), "");
+    for (const std::uint8_t v : {0, 128, 255})
+        EXPECT_EQ(first_fault(drawing(test::flat({50, 50}, {v, v, v, 255})).dendrite), "");
     EXPECT_THROW(drawing(test::flat({50, 50}, {9, 9, 9, 0})), Error);
     Controls black;
     black.mask = test::flat({5, 5}, {0, 0, 0, 255});
@@ -126,7 +129,8 @@ TEST_P(EveryStyle, HalfTheDetailIsAnHonestPreview) {
     for (std::size_t n = 0; n < full.size(); ++n) mf += full[n], mh += half[n];
     mf /= double(full.size()), mh /= double(half.size());
     for (std::size_t n = 0; n < full.size(); ++n)
-        fh += (full[n] - mf) * (half[n] - mh), ff += (full[n] - mf) * (full[n] - mf), hh += (half[n] - mh) * (half[n] - mh);
+        fh += (full[n] - mf) * (half[n] - mh), ff += (full[n] - mf) * (full[n] - mf),
+            hh += (half[n] - mh) * (half[n] - mh);
     EXPECT_GT(fh / std::sqrt(ff * hh), 0.9);
 }
 
@@ -143,10 +147,69 @@ TEST_P(EveryStyle, EveryIntermediateCanBeShown) {
 TEST(Vine, TheDrawnToneFollowsThePicture) {
     const Picture picture = test::scene({320, 240});
     const Drawing d = stylize(picture, load_style("vine", {{"lattice.detail", "640"}}), {});
-    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 8), wanted = blurred(luma_plane(picture), 8);
+    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {{320, 240}}, {})), 8),
+                      wanted = blurred(luma_plane(picture), 8);
     EXPECT_LT(drawn(110, 130), 0.45f) << "the dark side of the disc";
     EXPECT_GT(drawn(40, 200), 0.8f) << "the calm ground";
     EXPECT_GT(wanted(40, 200) - wanted(110, 130), 0.5f);
+}
+
+/// Correlation of a drawing's darkness with the picture's where the picture is asked to lead.
+double resemblance(const Picture& picture, const Drawing& d) {
+    const float sigma = 0.02f * float(picture.extent().long_side());
+    const Grid<float> drawn = blurred(luma_plane(raster(d.list, {picture.extent()}, {})), sigma);
+    const Grid<float> wanted = blurred(luma_plane(picture), sigma);
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    const Extent e = picture.extent();
+    for (int j = e.y / 5; j < e.y * 7 / 10; ++j)
+        for (int i = e.x * 2 / 5; i < e.x * 4 / 5; ++i) {
+            const double a = wanted(i, j), b = drawn(i, j);
+            n += 1, x += a, y += b, xx += a * a, yy += b * b, xy += a * b;
+        }
+    return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
+}
+
+TEST(Pareidolia, TheMoreLikenessTheMoreTheDrawingResemblesThePicture) {
+    const Picture picture = test::scene({300, 300});
+    double before = -1;
+    for (const char* likeness : {"0", "0.5", "1"}) {
+        const Style s = load_style("pareidolia", {{"lattice.detail", "300"},
+                                                  {"crown.likeness", likeness},
+                                                  {"lattice.picture_scale", "1"},
+                                                  {"choice.growths", "1"}});
+        const double now = resemblance(picture, stylize(picture, s, {}));
+        EXPECT_GT(now, before + 0.1) << likeness;
+        before = now;
+    }
+    EXPECT_GT(before, 0.8);
+}
+
+TEST(Tree, WithoutAPictureItStillGrowsAndKnowsNothingOfIt) {
+    Controls controls;
+    controls.no_picture = true;
+    const Style s = load_style("tree", {{"lattice.detail", "200"}});
+    const Drawing one = stylize(test::scene({160, 160}), s, controls);
+    const Drawing other = stylize(test::flat({160, 160}, {200, 10, 10, 255}), s, controls);
+    EXPECT_GT(one.strokes, 100u);
+    EXPECT_EQ(one.dendrite.node, other.dendrite.node);
+}
+
+TEST(Tree, WindBendsIt) {
+    const auto lean = [](const char* wind) {
+        Controls controls;
+        controls.no_picture = true;
+        const Drawing d = stylize(
+            test::flat({160, 160}, {}),
+            load_style("tree", {{"lattice.detail", "200"}, {"stage.twigs.wind", wind}, {"stage.limbs.wind", wind}}),
+            controls);
+        double sum = 0;
+        for (std::uint32_t v = 0; v < d.dendrite.size(); ++v)
+            if (!d.dendrite.is_root(v))
+                sum += double(d.dendrite.position_lattice[v].x - d.dendrite.position_lattice[d.dendrite.parent[v]].x);
+        return sum / double(d.dendrite.size());
+    };
+    EXPECT_GT(lean("1.5"), lean("0") + 0.02);
+    EXPECT_LT(lean("-1.5"), lean("0") - 0.02);
 }
 
 }  // namespace

@@ -81,5 +81,50 @@ TEST(WithoutSpurs, DropsShortSideBranchesAndNothingElse) {
     EXPECT_EQ(without_spurs(t.dendrite, [](Vec2f) { return 0.0f; }).size(), t.dendrite.size());
 }
 
+TEST(Growth, ALayerSharesOnlyWhatTheFirstStagesGrew) {
+    const Lattice lattice({12, 1}, Neighbourhood::square8);
+    const WeightedLattice graph{lattice, std::vector<NodeWeight>(12, 1), {}, true};
+    Growth growth(lattice);
+    growth.add_root(lattice.at(0, 0), 0);
+    const auto grow_to = [&](int column, std::uint8_t stage) {
+        const std::vector<Source> sources = growth.sources(0, 1);
+        const NodeId endpoint[] = {lattice.at(column, 0)};
+        growth.graft(reference_planner().plan({graph, sources, Metric::sum, 0}, {}), endpoint, stage);
+        return sources.size();
+    };
+    EXPECT_EQ(grow_to(3, 0), 1u);
+    EXPECT_EQ(grow_to(6, 1), 4u);
+    growth.start_layer(0);
+    EXPECT_EQ(grow_to(8, 2), 4u) << "nodes 4 to 6 are grown a second time";
+    EXPECT_EQ(growth.dendrite().size(), 4u + 3 + 5);
+    EXPECT_EQ(first_fault(growth.dendrite()), "");
+}
+
+TEST(Growth, RefusedPathsAreNotGrown) {
+    const Lattice lattice({12, 1}, Neighbourhood::square8);
+    const WeightedLattice graph{lattice, std::vector<NodeWeight>(12, 1), {}, true};
+    Growth growth(lattice);
+    growth.add_root(lattice.at(0, 0), 0);
+    const std::vector<Source> sources = growth.sources(0, 1);
+    const NodeId endpoints[] = {lattice.at(3, 0), lattice.at(9, 0)};
+    growth.graft(reference_planner().plan({graph, sources, Metric::sum, 0}, {}), endpoints, 0,
+                 [](std::span<const NodeId> path) { return path.size() < 5; });
+    EXPECT_EQ(growth.dendrite().size(), 4u);
+}
+
+TEST(Growth, BareTrunksStartBranchesDearer) {
+    const Lattice lattice({10, 1}, Neighbourhood::square8);
+    const WeightedLattice graph{lattice, std::vector<NodeWeight>(10, 1), {}, true};
+    Growth growth(lattice);
+    growth.add_root(lattice.at(0, 0), 0);
+    const std::vector<Source> root = growth.sources(0, 1);
+    const NodeId endpoint[] = {lattice.at(9, 0)};
+    growth.graft(reference_planner().plan({graph, root, Metric::sum, 0}, {}), endpoint, 0);
+    const std::vector<Source> sources = growth.sources(0, 10, 4);
+    EXPECT_EQ(sources[0].start, 100u);
+    EXPECT_EQ(sources[2].start, 50u);
+    EXPECT_EQ(sources[4].start, 0u);
+}
+
 }  // namespace
 }  // namespace dstylize

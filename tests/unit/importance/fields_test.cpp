@@ -35,6 +35,46 @@ TEST(Fields, EveryFieldLiesInTheUnitRange) {
     }
 }
 
+TEST(Fields, LocalToneDarkensWideBrightAreasAndKeepsSmallOnes) {
+    Picture picture = test::flat({200, 150}, {20, 20, 20, 255});
+    for (int j = 0; j < 150; ++j)
+        for (int i = 0; i < 200; ++i)
+            if (i < 100 || (std::abs(i - 170) < 6 && std::abs(j - 75) < 6)) picture(i, j) = {240, 240, 240, 255};
+    FieldParameters p;
+    p.bright = true;
+    p.tone_equalise = 0;
+    Fields plain = fields_of(picture, {256, 192}, p);
+    p.tone_local = 0.5f;
+    Fields local = fields_of(picture, {256, 192}, p);
+    const auto at = [](Fields& f, int x, int y) { return f["tone"](x * 256 / 200, y * 192 / 150); };
+    EXPECT_NEAR(at(plain, 20, 75), at(plain, 170, 75), 0.02);
+    EXPECT_LT(at(local, 20, 75), at(local, 170, 75) - 0.1f);
+}
+
+TEST(Fields, ToneGatesTheGradient) {
+    FieldParameters p;
+    Fields plain = fields_of(test::scene({200, 150}), {256, 192}, p);
+    p.gradient_tone = 1;
+    Fields gated = fields_of(test::scene({200, 150}), {256, 192}, p);
+    const Grid<float>& tone = gated["tone"];
+    float least_gated = 1, most_plain = 0;
+    for (std::size_t n = 0; n < tone.size(); ++n)
+        if (tone[n] < 0.02f && plain["gradient"][n] > most_plain) {
+            most_plain = plain["gradient"][n];
+            least_gated = gated["gradient"][n];
+        }
+    EXPECT_LT(least_gated, 0.7f * most_plain);
+}
+
+TEST(Fields, LowFeaturesAreTheFeaturesBelow) {
+    Fields fields = fields_of(test::scene({200, 150}), {256, 192});
+    const Grid<float>&low = fields["low_features"], &all = fields["features"];
+    for (int i = 0; i < 256; ++i) {
+        ASSERT_EQ(low(i, 20), 0) << i;
+        ASSERT_FLOAT_EQ(low(i, 170), all(i, 170)) << i;
+    }
+}
+
 TEST(Fields, FlatPicturesHaveNoGradientAndNoNotANumber) {
     for (const std::uint8_t level : {0, 128, 255}) {
         Fields fields = fields_of(test::flat({40, 30}, {level, level, level, 255}), {64, 48});
@@ -119,7 +159,8 @@ TEST(FlatFrame, AFlatBackgroundIsNoFrame) {
 
 TEST(Filters, WideBlurOnAReducedCopyMeetsTheFullOne) {
     Fields fields = fields_of(test::scene({300, 200}), {300, 200});
-    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7), wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
+    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7),
+                      wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
     float worst = 0;
     for (std::size_t n = 0; n < wide.size(); ++n) worst = std::max(worst, std::abs(direct[n] - wide[n]));
     EXPECT_LT(worst, 0.03f);

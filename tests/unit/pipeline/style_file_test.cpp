@@ -61,22 +61,28 @@ INSTANTIATE_TEST_SUITE_P(
     Table, BadStyle,
     ::testing::Values(
         Bad{"syntax", "[style\n", "s.toml:1:"},
-        Bad{"unknown key", "[style]\nmetaphor=\"ink\"\n[lattice]\ndetial = 3\n[[stage]]\n", "s.toml:4:1: unknown key 'lattice.detial': did you mean 'lattice.detail'?"},
-        Bad{"unknown section", "[style]\nmetaphor=\"ink\"\n[latice]\ndetail = 3\n[[stage]]\n", "did you mean 'lattice'?"},
-        Bad{"range", "[style]\nmetaphor=\"ink\"\n[lattice]\ndetail = 3\n[[stage]]\n", "s.toml:4:10: lattice.detail = 3 is out of range: give a whole number from 16"},
-        Bad{"type", "[style]\nmetaphor=\"ink\"\n[lattice]\nmargin = \"wide\"\n[[stage]]\n", "lattice.margin is not a number"},
+        Bad{"unknown key", "[style]\nmetaphor=\"ink\"\n[lattice]\ndetial = 3\n[[stage]]\n",
+            "s.toml:4:1: unknown key 'lattice.detial': did you mean 'lattice.detail'?"},
+        Bad{"unknown section", "[style]\nmetaphor=\"ink\"\n[latice]\ndetail = 3\n[[stage]]\n",
+            "did you mean 'lattice'?"},
+        Bad{"range", "[style]\nmetaphor=\"ink\"\n[lattice]\ndetail = 3\n[[stage]]\n",
+            "s.toml:4:10: lattice.detail = 3 is out of range: give a whole number from 16"},
+        Bad{"type", "[style]\nmetaphor=\"ink\"\n[lattice]\nmargin = \"wide\"\n[[stage]]\n",
+            "lattice.margin is not a number"},
         Bad{"not a number", "[style]\nmetaphor=\"ink\"\n[lattice]\nmargin = nan\n[[stage]]\n", "out of range"},
-        Bad{"choice", "[style]\nmetaphor=\"ink\"\n[[stage]]\nmetric = \"shortest\"\n", "use one of sum, max-sum, lexicographic, blend"},
+        Bad{"choice", "[style]\nmetaphor=\"ink\"\n[[stage]]\nmetric = \"shortest\"\n",
+            "use one of sum, max-sum, lexicographic, blend"},
         Bad{"colour", "[style]\nmetaphor=\"ink\"\n[ink]\nink = \"blue\"\n[[stage]]\n", "is not a colour"},
         Bad{"field", "[style]\nmetaphor=\"ink\"\n[[stage]]\ncost = { importnace = 1 }\n", "did you mean 'importance'?"},
         Bad{"metaphor", "[style]\nmetaphor=\"oil\"\n[[stage]]\n", "use one of ink"},
         Bad{"no metaphor", "[[stage]]\n", "names no metaphor"},
         Bad{"no stage", "[style]\nmetaphor=\"ink\"\n", "has no stage"},
         Bad{"twice", "[style]\nmetaphor=\"ink\"\n[[stage]]\n[[stage]]\n", "two stages are called 'growth'"},
-        Bad{"first stage", "[style]\nmetaphor=\"ink\"\n[[stage]]\nsources=\"dendrite\"\n", "cannot start from the dendrite"},
+        Bad{"first stage", "[style]\nmetaphor=\"ink\"\n[[stage]]\nsources=\"dendrite\"\n",
+            "cannot start from the dendrite"},
         Bad{"extends nothing", "[style]\nextends=\"vien\"\n", "did you mean 'vine'?"}),
-    [](const auto& info) {
-        std::string name = info.param.what;
+    [](const auto& row) {
+        std::string name = row.param.what;
         for (char& c : name)
             if (c == ' ') c = '_';
         return name;
@@ -84,8 +90,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(StyleFile, SettingsAddressSectionsAndStagesByName) {
     const Style style = parse_style(kSmall, "s.toml",
-                                    {{"lattice.detail", "80"}, {"stage.only.metric", "sum"},
-                                     {"stage.only.endpoints.calm_spacing", "9.5"}, {"stage.only.cost.tone", "0.5"},
+                                    {{"lattice.detail", "80"},
+                                     {"stage.only.metric", "sum"},
+                                     {"stage.only.endpoints.calm_spacing", "9.5"},
+                                     {"stage.only.cost.tone", "0.5"},
                                      {"ink.ink", "#ff0000"}});
     EXPECT_EQ(style.lattice.detail, 80);
     EXPECT_EQ(style.stages[0].metric, Metric::sum);

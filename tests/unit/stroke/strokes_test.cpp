@@ -75,9 +75,7 @@ struct Drawn {
     Dendrite dendrite = test::tree({80, 80}, 6, 120).dendrite;
     Branching b = branching(dendrite);
     Grid<float> tone{Extent{80, 80}, 0.6f}, lines{Extent{80, 80}, 0.0f}, importance{Extent{80, 80}, 0.5f};
-    Widths widths(WidthParameters p, float u = 1) const {
-        return Widths(dendrite, b, p, {tone, lines, importance}, u);
-    }
+    Widths widths(WidthParameters p, float u = 1) const { return Widths(dendrite, b, p, {tone, lines, importance}, u); }
 };
 
 TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
@@ -87,8 +85,9 @@ TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
     const Widths widths = drawn.widths(p);
     for (const Branch& branch : drawn.b.branches) {
         ASSERT_LE(widths.widths()[branch.nodes.back()], p.tip_width + 1e-4f);
-        if (branch.parent_branch != Branch::kNone)
+        if (branch.parent_branch != Branch::kNone) {
             ASSERT_LE(widths.widths()[branch.nodes[1]], widths.widths()[branch.nodes[0]] + 0.2f);
+        }
     }
 }
 
@@ -110,7 +109,8 @@ TEST(Widths, DarkerTonesAreWider) {
     drawn.tone = Grid<float>({80, 80}, 0.1f);
     const Widths light = drawn.widths({});
     double sum_dark = 0, sum_light = 0;
-    for (std::uint32_t v = 0; v < drawn.dendrite.size(); ++v) sum_dark += dark.widths()[v], sum_light += light.widths()[v];
+    for (std::uint32_t v = 0; v < drawn.dendrite.size(); ++v)
+        sum_dark += dark.widths()[v], sum_light += light.widths()[v];
     EXPECT_GT(sum_dark, 1.5 * sum_light);
 }
 

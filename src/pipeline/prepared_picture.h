@@ -5,10 +5,12 @@
 namespace dstylize {
 
 /// A picture brought to the lattice: its fields, and where something may grow.
-struct Prepared {
+struct PreparedPicture {
     Fields fields;
+    Lattice lattice;
     Grid<std::uint8_t> passable;
 };
-Prepared prepared(const Picture& picture, const Style& style, const Controls& controls);
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
+                                 const Work& work = {});
 
 }  // namespace dstylize

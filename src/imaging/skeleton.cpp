@@ -1,0 +1,156 @@
+#include "imaging/skeleton.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace dstylize {
+namespace {
+
+/// 0 inside the shape and 255 outside, as OpenCV's distances want it.
+cv::Mat outside_of(const Grid<std::uint8_t>& shape) {
+    cv::Mat out(shape.extent().y, shape.extent().x, CV_8U);
+    std::transform(shape.begin(), shape.end(), out.data, [](std::uint8_t v) { return std::uint8_t(v ? 0 : 255); });
+    return out;
+}
+bool has_inside(const Grid<std::uint8_t>& shape) {
+    return std::any_of(shape.begin(), shape.end(), [](std::uint8_t v) { return v != 0; });
+}
+
+/// A shape with a border of outside nodes, thinned in place.
+class Thinning {
+  public:
+    explicit Thinning(const Grid<std::uint8_t>& shape)
+        : width_(shape.extent().x + 2),
+          inside_(std::size_t(width_) * std::size_t(shape.extent().y + 2), 0),
+          around_{-width_, 1 - width_, 1, 1 + width_, width_, width_ - 1, -1, -1 - width_} {
+        for (int j = 0; j < shape.extent().y; ++j)
+            for (int i = 0; i < shape.extent().x; ++i) inside_[at(i, j)] = shape(i, j) != 0;
+        for (std::size_t n = 0; n < inside_.size(); ++n)
+            if (inside_[n] && ring(n) != 0xff) candidates_.push_back(n);
+    }
+
+    void run() {
+        bool first_idle = false;
+        for (bool second = false;; second = !second) {
+            const bool idle = !sweep(second);
+            if (idle && first_idle) return;
+            first_idle = idle;
+        }
+    }
+    bool inside(int i, int j) const { return inside_[at(i, j)]; }
+
+  private:
+    std::size_t at(int i, int j) const { return std::size_t(j + 1) * std::size_t(width_) + std::size_t(i + 1); }
+
+    /// The eight neighbours as bits, clockwise from the one above.
+    unsigned ring(std::size_t n) const {
+        unsigned bits = 0;
+        for (unsigned k = 0; k < 8; ++k) bits |= unsigned(inside_[n + std::size_t(around_[k])]) << k;
+        return bits;
+    }
+    static bool goes(unsigned bits, bool second) {
+        const auto on = [bits](unsigned k) { return bits >> (k & 7u) & 1u; };
+        unsigned count = 0, rises = 0;
+        for (unsigned k = 0; k < 8; ++k) {
+            count += on(k);
+            rises += !on(k) && on(k + 1);
+        }
+        if (count < 2 || count > 6 || rises != 1) return false;
+        const unsigned up = on(0), right = on(2), down = on(4), left = on(6);
+        return second ? !(up && right && left) && !(up && down && left)
+                      : !(up && right && down) && !(right && down && left);
+    }
+
+    /// One half-iteration: whether anything went. All decisions are made before anything goes.
+    bool sweep(bool second) {
+        std::vector<std::size_t> gone, kept;
+        for (const std::size_t n : candidates_) (goes(ring(n), second) ? gone : kept).push_back(n);
+        for (const std::size_t n : gone) inside_[n] = 0;
+        if (gone.empty()) return false;
+        for (const std::size_t n : gone)
+            for (const int step : around_)
+                if (inside_[n + std::size_t(step)]) kept.push_back(n + std::size_t(step));
+        std::sort(kept.begin(), kept.end());
+        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+        candidates_ = std::move(kept);
+        return true;
+    }
+
+    int width_;
+    std::vector<std::uint8_t> inside_;
+    std::array<int, 8> around_;
+    std::vector<std::size_t> candidates_;
+};
+
+}  // namespace
+
+Grid<float> distance_to(const Grid<std::uint8_t>& shape) {
+    const Extent e = shape.extent();
+    if (!has_inside(shape)) return Grid<float>(e, std::hypot(float(e.x), float(e.y)));
+    Grid<float> out(e);
+    cv::Mat target(e.y, e.x, CV_32F, out.data());
+    cv::distanceTransform(outside_of(shape), target, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+    return out;
+}
+
+Grid<float> signed_depth(const Grid<std::uint8_t>& shape) {
+    Grid<std::uint8_t> outside = shape;
+    for (std::uint8_t& v : outside) v = !v;
+    const Grid<float> to_inside = distance_to(shape);
+    Grid<float> out = distance_to(outside);
+    for (std::size_t n = 0; n < out.size(); ++n) out[n] = shape[n] ? out[n] - 0.5f : 0.5f - to_inside[n];
+    return out;
+}
+
+Grid<int> nearest_part(const Grid<std::uint8_t>& shape) {
+    const Extent e = shape.extent();
+    Grid<int> out(e);
+    if (!has_inside(shape)) return out;
+    cv::Mat distance, labels(e.y, e.x, CV_32S, out.data());
+    cv::distanceTransform(outside_of(shape), distance, labels, cv::DIST_L2, cv::DIST_MASK_5, cv::DIST_LABEL_CCOMP);
+    for (int& part : out) --part;
+    return out;
+}
+
+Grid<std::uint8_t> skeleton(const Grid<std::uint8_t>& shape) {
+    const Extent e = shape.extent();
+    Grid<std::uint8_t> out(e);
+    if (!has_inside(shape)) return out;
+    Thinning thinning(shape);
+    thinning.run();
+    // Thinning eats parts of two by two nodes whole: those keep their deepest one.
+    const Grid<int> part = nearest_part(shape);
+    const Grid<float> depth = signed_depth(shape);
+    const int parts = 1 + *std::max_element(part.begin(), part.end());
+    std::vector<bool> kept(std::size_t(parts), false);
+    std::vector<std::size_t> deepest(std::size_t(parts), shape.size());
+    for (int j = 0; j < e.y; ++j)
+        for (int i = 0; i < e.x; ++i) {
+            if (!shape(i, j)) continue;
+            const std::size_t n = std::size_t(j) * std::size_t(e.x) + std::size_t(i);
+            const auto p = std::size_t(part[n]);
+            out[n] = thinning.inside(i, j);
+            if (out[n]) kept[p] = true;
+            if (deepest[p] == shape.size() || depth[n] > depth[deepest[p]]) deepest[p] = n;
+        }
+    for (std::size_t p = 0; p < kept.size(); ++p)
+        if (!kept[p] && deepest[p] < out.size()) out[deepest[p]] = 1;
+    return out;
+}
+
+float stem_width(const Grid<std::uint8_t>& shape) {
+    const Grid<std::uint8_t> axis = skeleton(shape);
+    const Grid<float> depth = signed_depth(shape);
+    std::vector<float> depths;
+    for (std::size_t n = 0; n < axis.size(); ++n)
+        if (axis[n]) depths.push_back(depth[n]);
+    if (depths.empty()) return 0;
+    std::nth_element(depths.begin(), depths.begin() + std::ptrdiff_t(depths.size() / 2), depths.end());
+    return 2 * depths[depths.size() / 2];
+}
+
+}  // namespace dstylize

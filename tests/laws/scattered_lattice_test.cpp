@@ -1,0 +1,147 @@
+// Irregular lattices: every node has its 12 nearest, edges go both ways and not through walls, and the
+// planners find on them what a brute-force fixed point finds.
+#include "graph/scattered_lattice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "graph/bucket_planner.h"
+#include "graph/edge_count.h"
+#include "graph/height_planes.h"
+#include "laws/random_graphs.h"
+
+namespace dstylize {
+namespace {
+
+Grid<std::uint8_t> open_ground(Extent e) { return Grid<std::uint8_t>(e, 1); }
+
+Lattice lattice(const Grid<std::uint8_t>& passable, std::uint64_t seed) {
+    return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), {});
+}
+
+bool lists(const Adjacency& a, std::uint32_t from, std::uint32_t to) {
+    return std::find(a.to.begin() + a.first[from], a.to.begin() + a.first[from + 1], to) !=
+           a.to.begin() + a.first[from + 1];
+}
+
+TEST(ScatteredLattice, EveryNodeIsJoinedToItsTwelveNearestAndBothWays) {
+    const Lattice l = lattice(open_ground({23, 17}), 3);
+    const Adjacency& a = *l.adjacency();
+    for (std::uint32_t n = 0; n < l.node_count(); ++n) {
+        std::vector<std::pair<float, std::uint32_t>> others;
+        for (std::uint32_t v = 0; v < l.node_count(); ++v) {
+            const Vec2f d = a.position_lattice[v] - a.position_lattice[n];
+            if (v != n) others.push_back({dot(d, d), v});
+        }
+        std::sort(others.begin(), others.end());
+        for (int k = 0; k < 12; ++k) ASSERT_TRUE(lists(a, n, others[std::size_t(k)].second)) << n;
+        for (std::uint32_t e = a.first[n]; e < a.first[n + 1]; ++e) {
+            ASSERT_NE(a.to[e], n);
+            ASSERT_TRUE(lists(a, a.to[e], n));
+            ASSERT_NEAR(a.length5[e], 5 * distance(a.position_lattice[n], a.position_lattice[a.to[e]]), 0.51f);
+        }
+    }
+}
+
+TEST(ScatteredLattice, NodesStayNearTheirCellsAndInsideTheFrame) {
+    const Lattice l = lattice(open_ground({40, 30}), 1);
+    for (std::uint32_t n = 0; n < l.node_count(); ++n) {
+        const Vec2f p = l.position_lattice(NodeId{n});
+        ASSERT_LE(std::abs(p.x - float(l.column(NodeId{n})) - 0.5f), 0.751f);
+        ASSERT_LE(std::abs(p.y - float(l.row(NodeId{n})) - 0.5f), 0.501f);
+        ASSERT_TRUE(p.x >= 0 && p.y >= 0 && p.x <= 40 && p.y <= 30);
+    }
+}
+
+TEST(ScatteredLattice, NoEdgePassesThroughAWall) {
+    Grid<std::uint8_t> passable = open_ground({30, 20});
+    for (int j = 0; j < 20; ++j) passable(15, j) = 0;
+    const Lattice l = lattice(passable, 2);
+    const Adjacency& a = *l.adjacency();
+    for (std::uint32_t n = 0; n < l.node_count(); ++n)
+        for (std::uint32_t e = a.first[n]; e < a.first[n + 1]; ++e)
+            ASSERT_EQ(a.position_lattice[n].x < 15, a.position_lattice[a.to[e]].x < 15);
+}
+
+/// Random weights, walls and sources on a scattered lattice, half of them with heights per direction.
+test::RandomGraph scattered_graph(std::uint32_t seed) {
+    test::Dice dice(seed);
+    const Extent e{dice.between(1, 14), dice.between(1, 14)};
+    test::RandomGraph r;
+    r.graph.lattice = lattice(open_ground(e), seed);
+    const int levels = dice.one_in(2) ? 3 : 4000;
+    for (std::size_t n = 0; n < e.count(); ++n)
+        r.graph.weight.push_back(dice.one_in(6) ? kImpassable : NodeWeight(dice.between(1, levels)));
+    r.graph.weight[0] = 1;
+    if (dice.one_in(2)) {
+        DirectionalCost cost;
+        cost.pull = {dice.unit() - 0.5f, -dice.unit()};
+        build_height_planes(r.graph, cost, {});
+    }
+    r.sources.push_back({NodeId{0}, dice.below(50), 0});
+    for (std::uint32_t n = 1; n < e.count(); ++n)
+        if (dice.one_in(40) && r.graph.passable(NodeId{n})) r.sources.push_back({NodeId{n}, dice.below(50), 1});
+    return r;
+}
+
+TEST(ScatteredLattice, ThePlannersAgreeBitForBit) {
+    for (std::uint32_t seed = 0; seed < 600; ++seed) {
+        const test::RandomGraph g = scattered_graph(seed);
+        for (const Metric metric : {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend}) {
+            const PlanRequest request{g.graph, g.sources, metric, 500};
+            const Plan expected = reference_planner().plan(request, {}), found = bucket_planner().plan(request, {});
+            ASSERT_EQ(found.label, expected.label) << seed;
+            ASSERT_EQ(found.parent, expected.parent) << seed;
+            ASSERT_EQ(found.owner, expected.owner) << seed;
+        }
+    }
+}
+
+/// Least sums by relaxing every edge until nothing changes.
+std::vector<std::uint64_t> least_sums(const test::RandomGraph& g) {
+    std::vector<std::uint64_t> least(g.graph.lattice.node_count(), PathLabel::kUnreached);
+    for (const Source& s : g.sources) least[index(s.node)] = std::min(least[index(s.node)], s.start);
+    for (bool changes = true; changes;) {
+        changes = false;
+        for (std::uint32_t u = 0; u < least.size(); ++u) {
+            if (least[u] == PathLabel::kUnreached) continue;
+            for (int s = 0; s < g.graph.degree(NodeId{u}); ++s) {
+                const std::uint64_t height = g.graph.height(NodeId{u}, s);
+                const std::uint32_t v = index(g.graph.neighbour(NodeId{u}, s));
+                const std::uint64_t reached = least[u] + height * g.graph.length5(NodeId{u}, s);
+                if (height == 0 || reached >= least[v]) continue;
+                least[v] = reached;
+                changes = true;
+            }
+        }
+    }
+    return least;
+}
+
+TEST(ScatteredLattice, SumsAreTheLeastThereAre) {
+    for (std::uint32_t seed = 1000; seed < 1200; ++seed) {
+        const test::RandomGraph g = scattered_graph(seed);
+        const Plan plan = reference_planner().plan({g.graph, g.sources, Metric::sum, 0}, {});
+        const std::vector<std::uint64_t> least = least_sums(g);
+        for (std::size_t n = 0; n < least.size(); ++n) ASSERT_EQ(plan.label[n].sum, least[n]) << seed;
+    }
+}
+
+TEST(ScatteredLattice, PullMakesOneWayDearer) {
+    EXPECT_FLOAT_EQ(pull_factor({0, -1}, {0, -0.5f}), 1);
+    EXPECT_FLOAT_EQ(pull_factor({0, 2}, {0, -0.5f}), 1.5f);
+    EXPECT_FLOAT_EQ(pull_factor({3, 0}, {0, -0.5f}), 1.25f);
+}
+
+TEST(EdgeCount, IsTheFewestEdgesAndStopsAtTheLimit) {
+    const Lattice square({9, 9}, Neighbourhood::square4);
+    const WeightedLattice graph{square, std::vector<NodeWeight>(81, 1), {}, true};
+    const NodeId middle[] = {square.at(4, 4)};
+    const Grid<std::uint16_t> edges = edge_count(graph, middle, 5);
+    for (int j = 0; j < 9; ++j)
+        for (int i = 0; i < 9; ++i) EXPECT_EQ(edges(i, j), std::min(6, std::abs(i - 4) + std::abs(j - 4)));
+}
+
+}  // namespace
+}  // namespace dstylize
