@@ -290,7 +290,8 @@ Writing writing(const Arguments& a) {
     if (a.text_place.empty()) return out;
     const RootChoice place = parsed_root(a.text_place);
     if (place.place)
-        throw usage_error("--place " + a.text_place, "is not a point", "write x,y: fractions with a decimal point, or pixels");
+        throw usage_error("--place " + a.text_place, "is not a point",
+                          "write x,y: fractions with a decimal point, or pixels");
     out.x = place.x;
     out.y = place.y;
     return out;

@@ -6,7 +6,16 @@ namespace dstylize {
 
 /// One independent random stream per purpose, so that adding a stage never reshuffles another.
 enum class Purpose : std::uint32_t {
-    white_noise, smooth_noise, swirl, endpoints, leaves, paper, jitter, warp, ragged_outline, relief
+    white_noise,
+    smooth_noise,
+    swirl,
+    endpoints,
+    leaves,
+    paper,
+    jitter,
+    warp,
+    ragged_outline,
+    relief
 };
 
 /// Counter-based noise (Philox 4x32-10, Salmon et al. 2011): a value depends on (seed, purpose,

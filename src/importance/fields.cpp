@@ -100,7 +100,8 @@ void FieldParameters::visit(ParameterVisitor& v) {
     v.number({"shape_overflow", "u", "how far growth in the mask may leave it"}, shape_overflow, 0, 60);
     v.number({"shape_ragged", "u", "how far the outline wanders inwards from there"}, shape_ragged, 0, 60);
     v.number({"shape_ragged_scale", "u", "correlation length of that wandering"}, shape_ragged_scale, 1, 200);
-    v.number({"axis_width", "u", "how far from the shape's medial axis the field `axis` reaches"}, axis_width, 0.5f, 200);
+    v.number({"axis_width", "u", "how far from the shape's medial axis the field `axis` reaches"}, axis_width, 0.5f,
+             200);
     v.number({"rim_width", "u", "how deep from the outline the field `rim` is above one half"}, rim_width, 0.5f, 60);
     v.number({"calm_scale", "u", "how far from contours calm areas stay"}, calm_scale, 5, 200);
     v.number({"calm_detail", "", "most detail that counts as calm"}, calm_detail, 0, 1);

@@ -107,7 +107,8 @@ std::vector<NodeId> loop_closings(Fields& fields, const WeightedLattice& graph, 
     constexpr float kApart = 0.16f;  // of the shortest way around
     const Grid<float>& ridge = fields[p.priority];
     Grid<std::uint8_t> candidate(ridge.extent());
-    for (std::size_t n = 0; n < ridge.size(); ++n) candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
+    for (std::size_t n = 0; n < ridge.size(); ++n)
+        candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
     const float around = p.close_loops * fields.u();
     return meeting_points(graph.lattice, plan, candidate, std::max(1, int(around)), kApart * around);
 }

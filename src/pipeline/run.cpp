@@ -117,7 +117,8 @@ class Run {
             input_ = codec_.decode(read.bytes, name_of(request_.input));
         }
         if (request_.writing) controls_.mask = letter_mask(*request_.writing, input_.picture.extent());
-        lattice_ = lattice_scale(input_.picture.extent(), style_.lattice, controls_.mask ? &*controls_.mask : nullptr).extent;
+        lattice_ =
+            lattice_scale(input_.picture.extent(), style_.lattice, controls_.mask ? &*controls_.mask : nullptr).extent;
         frame_ = output_frame(request_.size, input_.picture.extent());
         controls_.seed = request_.seed;
         controls_.roots = request_.roots;
@@ -148,8 +149,9 @@ class Run {
     }
 
     void check_memory() const {
-        // Measured: raster, codec and shared memory per output pixel; fields, labels and heights per node.
-        constexpr double kBytesPerPixel = 24, kBytesPerNode = 220;
+        // Measured, and rounded up: raster, shared memory and encoder per output pixel; fields, labels and edge heights
+        // per node.
+        constexpr double kBytesPerPixel = 16, kBytesPerNode = 180;
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
         const double nodes = double(lattice_.count());
         const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);
@@ -206,7 +208,7 @@ class Run {
         options.frame = frame_;
         options.quality = request_.quality;
         options.compression = request_.compression;
-        const std::string subject = request_.writing ? request_.writing->lettering.text
+        const std::string subject = request_.writing              ? request_.writing->lettering.text
                                     : !recipe_.input.name.empty() ? fs::path(recipe_.input.name).stem().string()
                                                                   : request_.mask.path.stem().string();
         options.title = fmt::format("{} ({})", subject, style_.name);

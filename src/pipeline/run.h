@@ -34,7 +34,7 @@ struct RunRequest {
     int detail = 0;  ///< lattice nodes on the long side; 0: the style's
     std::uint64_t seed = 1;
 
-    std::optional<Writing> writing;  ///< words that are the mask
+    std::optional<Writing> writing;             ///< words that are the mask
     AuxiliaryFile importance, mask, endpoints;  ///< empty path: none
     bool importance_replaces = false;
     std::vector<RootChoice> roots;

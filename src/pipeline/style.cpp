@@ -10,8 +10,8 @@ void LatticeParameters::visit(ParameterVisitor& v) {
     choice(v, {"neighbours", "", "steps a path can take from a node; 16 takes staircases out of long lines"},
            neighbourhood, kNeighbourhoods);
     v.number({"margin", "u", "nothing grows this near to the frame"}, margin, 0, 100);
-    v.number({"stem", "u", "with a mask, u is such that its strokes are this wide; 0: 1/1024 of the long side"}, stem, 0,
-             512);
+    v.number({"stem", "u", "with a mask, u is such that its strokes are this wide; 0: 1/1024 of the long side"}, stem,
+             0, 512);
 }
 
 void RootParameters::visit(ParameterVisitor& v) {
@@ -19,7 +19,8 @@ void RootParameters::visit(ParameterVisitor& v) {
     choice(v, {"place", "", "where growth starts, always on a cheap node nearby"}, place, kPlaces);
     v.number({"inset", "u", "how far from the frame the bottom or top root lies"}, inset, 0, 200);
     v.text({"interest", "", "field whose high places are good for roots"}, interest);
-    v.number({"smallest_part", "u^2", "connected parts of the mask smaller than this get no root"}, smallest_part, 0, 1e6f);
+    v.number({"smallest_part", "u^2", "connected parts of the mask smaller than this get no root"}, smallest_part, 0,
+             1e6f);
     v.flag({"every_part", "", "parts in which the user puts no root get one of their own"}, every_part);
 }
 

@@ -26,7 +26,7 @@ struct LatticeParameters {
 struct RootParameters {
     enum class Place { bottom, top, centre, darkest };
     Place place = Place::bottom;
-    float inset = 16;  ///< u: distance from the frame of `bottom` and `top`
+    float inset = 16;                     ///< u: distance from the frame of `bottom` and `top`
     std::string interest = "importance";  ///< field: where it is high roots are best
     float smallest_part = 9;              ///< u^2: smaller connected parts get no root
     bool every_part = false;              ///< parts without a root of the user's get one of their own
@@ -44,7 +44,7 @@ struct EndpointParameters {
     float at_least = 0, jitter = 0;
     float calm_spacing = 26, dense_spacing = 3;
     float close_loops = 0;  ///< u: ways around a hole longer than this are joined; 0: never
-    float keep_off = 0;  ///< discs: share of the spacing to keep from what is drawn already
+    float keep_off = 0;     ///< discs: share of the spacing to keep from what is drawn already
 
     void visit(ParameterVisitor& visitor);
 };
