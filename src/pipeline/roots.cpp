@@ -170,6 +170,8 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
     if (choices.empty()) choices.push_back({parameters.place, {}, {}});
     const float smallest = std::min(parameters.smallest_part * fields.u() * fields.u(),
                                     float(*std::max_element(parts.size.begin(), parts.size.end())));
+    // A user thinks in the picture's frame, whatever u the style has.
+    const float margin = kMoveAtMost_u * float(graph.lattice.extent().long_side()) / 1024;
     std::vector<NodeId> out;
     for (const RootChoice& choice : choices) {
         std::vector<NodeId> starts;
@@ -177,7 +179,7 @@ std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, con
             starts = best_of_parts(fields, graph, parts, parameters, *choice.place);
         } else {
             // The margin at the frame is ours, not the user's: a root there moves just inside.
-            const NodeId at = passable_near(graph, chosen_node(graph, choice, picture_px), kMoveAtMost_u * fields.u());
+            const NodeId at = passable_near(graph, chosen_node(graph, choice, picture_px), margin);
             if (at == kNoNode)
                 throw Error(ErrorCode::bad_usage, "",
                             fmt::format("--root {},{} lies where nothing may grow", choice.x.value, choice.y.value),

@@ -24,6 +24,7 @@ namespace {
 
 struct Golden {
     const char *style, *sample;
+    bool is_mask = false;  ///< the sample is also the mask
 };
 constexpr int kPictureDetail = 320, kStructureDetail = 128;
 
@@ -44,7 +45,9 @@ class Goldens : public ::testing::TestWithParam<Golden> {
     }
     Drawing drawing(int detail) {
         const Picture sample = read_picture(source("samples/" + std::string(GetParam().sample) + ".png"));
-        return stylize(sample, load_style(GetParam().style, {{"lattice.detail", std::to_string(detail)}}), {});
+        Controls controls;
+        if (GetParam().is_mask) controls.mask = sample;
+        return stylize(sample, load_style(GetParam().style, {{"lattice.detail", std::to_string(detail)}}), controls);
     }
     static std::filesystem::path stored(const std::string& kind, const std::string& extension) {
         return source("tests/golden/" + kind + "/" + GetParam().style + "-" + GetParam().sample + extension);
@@ -101,7 +104,8 @@ TEST_P(Goldens, PictureLooksLikeTheStoredOne) {
 INSTANTIATE_TEST_SUITE_P(Samples, Goldens,
                          ::testing::Values(Golden{"vine", "portrait"}, Golden{"vine", "still-life"},
                                            Golden{"ink", "cat"}, Golden{"lightning", "portrait"},
-                                           Golden{"storm", "sky"}),
+                                           Golden{"storm", "sky"}, Golden{"letters", "letters", true},
+                                           Golden{"lichen-letters", "letters", true}),
                          [](const auto& row) {
                              std::string name = std::string(row.param.style) + "_" + row.param.sample;
                              std::replace(name.begin(), name.end(), '-', '_');
