@@ -21,7 +21,8 @@ Lattice lattice(const Grid<std::uint8_t>& passable, std::uint64_t seed) {
 }
 
 bool lists(const Adjacency& a, std::uint32_t from, std::uint32_t to) {
-    return std::find(a.to.begin() + a.first[from], a.to.begin() + a.first[from + 1], to) != a.to.begin() + a.first[from + 1];
+    return std::find(a.to.begin() + a.first[from], a.to.begin() + a.first[from + 1], to) !=
+           a.to.begin() + a.first[from + 1];
 }
 
 TEST(ScatteredLattice, EveryNodeIsJoinedToItsTwelveNearestAndBothWays) {

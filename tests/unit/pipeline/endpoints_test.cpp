@@ -14,7 +14,8 @@ constexpr Extent kExtent{96, 80};
 struct Ground {
     Fields fields{Grid<float>(kExtent, 0.4f), FieldParameters{}, UserMaps{}, 5};
     Grid<std::uint8_t> passable{kExtent, 1};
-    WeightedLattice graph{Lattice(kExtent, Neighbourhood::square8), std::vector<NodeWeight>(kExtent.count(), 1), {}, true};
+    WeightedLattice graph{
+        Lattice(kExtent, Neighbourhood::square8), std::vector<NodeWeight>(kExtent.count(), 1), {}, true};
     Dendrite drawn;
 
     Ground() {
@@ -74,8 +75,9 @@ TEST(Endpoints, KeepTheirSpacingWhichShrinksFromBatchToBatch) {
         const std::vector<NodeId> placed = g.placed(p, batch, 3);
         for (std::size_t a = 0; a < placed.size(); ++a)
             for (std::size_t b = 0; b < a; ++b)
-                ASSERT_GT(distance(g.graph.lattice.position_lattice(placed[a]), g.graph.lattice.position_lattice(placed[b])),
-                          spacing - 1.5f);
+                ASSERT_GT(
+                    distance(g.graph.lattice.position_lattice(placed[a]), g.graph.lattice.position_lattice(placed[b])),
+                    spacing - 1.5f);
         EXPECT_GT(placed.size(), before);
         before = placed.size();
     }
