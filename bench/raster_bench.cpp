@@ -14,7 +14,7 @@ constexpr int kStrokes = 25000, kPointsPerStroke = 20;
 
 /// Curly tapered strokes all over a picture of 6000 x 4000; widths and spacings as a vine has them.
 DisplayList vine_like() {
-    constexpr float kWidth = 6000, kHeight = 4000, u = kWidth / 1024;
+    constexpr float kWidth = 6000, kHeight = 4000, kUnit = kWidth / 1024;
     DisplayList list{kWidth, kHeight, {{0.96f, 0.94f, 0.88f, 1}, 0.02f, 1}, {}};
     Layer layer{"strokes", Blend::max, {}};
     const Noise noise(7, Purpose::jitter);
@@ -25,11 +25,11 @@ DisplayList vine_like() {
         Vec2f at{kWidth * noise.unit(draw++), kHeight * noise.unit(draw++)};
         float heading = 6.2831853f * noise.unit(draw++);
         const float bend = 0.4f * (noise.unit(draw++) - 0.5f),
-                    width = (0.6f + 3 * std::pow(noise.unit(draw++), 3.0f)) * u;
+                    width = (0.6f + 3 * std::pow(noise.unit(draw++), 3.0f)) * kUnit;
         for (int i = 0; i < kPointsPerStroke; ++i) {
             stroke.points_px.push_back(at);
-            stroke.width_px.push_back(std::max(0.45f * u, width * (1 - float(i) / kPointsPerStroke)));
-            at = at + Vec2f{std::cos(heading), std::sin(heading)} * (0.9f * u);
+            stroke.width_px.push_back(std::max(0.45f * kUnit, width * (1 - float(i) / kPointsPerStroke)));
+            at = at + Vec2f{std::cos(heading), std::sin(heading)} * (0.9f * kUnit);
             heading += bend;
         }
         layer.items.push_back(std::move(stroke));

@@ -12,6 +12,7 @@
 #include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
+#include "pipeline/writing.h"
 #include "render/raster.h"
 #include "stipple/poisson_discs.h"
 
@@ -130,6 +131,24 @@ void whole(benchmark::State& state, const std::string& name) {
     for (auto _ : state) benchmark::DoNotOptimize(stylize(vine().picture, style, {}).strokes);
 }
 
+/// Planning and drawing of one letter of about 600 paths in 300 x 300 pixels, without setting it in type.
+void letter(benchmark::State& state, const std::string& style_name) {
+    constexpr Extent kSize{300, 300};
+    Writing words;
+    words.lettering.text = "R";
+    Controls controls;
+    controls.mask = letter_mask(words, kSize);
+    const Picture paper(kSize, {255, 255, 255, 255});
+    const Style style = load_style(style_name);
+    std::size_t strokes = 0;
+    for (auto _ : state) {
+        const Drawing drawing = stylize(paper, style, controls);
+        benchmark::DoNotOptimize(raster(drawing.list, {kSize}, {}).data());
+        strokes = drawing.strokes;
+    }
+    state.counters["strokes"] = double(strokes);
+}
+
 void add_all() {
     const auto add = [](const std::string& name, auto... arguments) {
         benchmark::RegisterBenchmark(name.c_str(), arguments...)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -146,6 +165,8 @@ void add_all() {
     add("strokes", strokes);
     add("widths", widths);
     add("raster", rastered);
+    for (const char* style : {"letters", "lichen-letters"})
+        add("letter/" + std::string(style), [style](auto& state) { letter(state, style); });
     for (const BuiltinStyle& style : builtin_styles()) {
         const std::string name(style.name);
         add("whole/" + name, [name](auto& state) { whole(state, name); });

@@ -6,6 +6,7 @@ _dstylize() {
         --dry-run -q --quiet -v --verbose --json --threads --max-memory --allow-damaged -h --help'
     local draw='-s --style --set --detail --seed --root --mask --importance --importance-mode --endpoints
         --background --show --help-all --version'
+    local draw_words='--font --text-size --place --align --letter-spacing --line-spacing'
     COMPREPLY=()
     if [[ $before == -s || $before == --style || ($verb == styles && $COMP_CWORD == 2) ]]; then
         styles=$("${COMP_WORDS[0]}" styles 2>/dev/null | cut -d ' ' -f 1)
@@ -13,19 +14,22 @@ _dstylize() {
     case $before in
     -s | --style) words=$styles ;;
     --importance-mode) words='multiply replace' ;;
+    --align) words='left centre right' ;;
+    --font) words=$(fc-list : family 2>/dev/null | cut -d , -f 1) ;;
     --format) words='png jpg tif webp svg pdf json' ;;
     --root) words='bottom top centre darkest' ;;
     --background) words='input none' ;;
     --show) words=$("${COMP_WORDS[0]}" styles --fields 2>/dev/null | grep -v '^--' | cut -d ' ' -f 1)' weights endpoints distance owners tree' ;;
-    --set | --detail | --seed | --size | --scale | --quality | --compression | --threads | --max-memory) return ;;
+    --set | --detail | --seed | --size | --scale | --quality | --compression | --text-size | --place | --letter-spacing | --line-spacing | --threads | --max-memory) return ;;
     *)
         if [[ $verb == styles ]]; then
             words="$styles --fields --copy -f --force -h --help"
         elif [[ $word == -* ]]; then
             words=$output
             [[ $verb == replay ]] || words+=" $draw"
+            [[ $verb != write ]] || words+=" $draw_words"
         elif ((COMP_CWORD == 1)); then
-            words='styles replay'
+            words='styles write replay'
         fi
         ;;
     esac

@@ -9,15 +9,15 @@
 #include <cstdlib>
 #include <vector>
 
-struct V { float x = 0, y = 0, z = 0; };
+struct V {
+    float x = 0, y = 0, z = 0;
+};
 inline V operator+(V a, V b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline V operator-(V a, V b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline V operator*(V a, V b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 inline V operator*(V a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 inline float dot(V a, V b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline V cross(V a, V b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+inline V cross(V a, V b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline float length(V a) { return std::sqrt(dot(a, a)); }
 inline V norm(V a) { return a * (1 / std::max(length(a), 1e-9f)); }
 inline float clamp(float x, float a = 0, float b = 1) { return x < a ? a : x > b ? b : x; }
@@ -65,18 +65,22 @@ inline V rotZ(V p, float a) {
 
 // Noise and random numbers: integer hashes, so every run gives the same picture.
 inline uint32_t mixBits(uint32_t h) {
-    h ^= h >> 16; h *= 0x7feb352dU; h ^= h >> 15; h *= 0x846ca68bU;
+    h ^= h >> 16;
+    h *= 0x7feb352dU;
+    h ^= h >> 15;
+    h *= 0x846ca68bU;
     return h ^ (h >> 16);
 }
 inline float hash(int x, int y, int z) {
-    const uint32_t h = mixBits(uint32_t(x) * 73856093U ^ uint32_t(y) * 19349663U ^
-                               uint32_t(z) * 83492791U);
+    const uint32_t h = mixBits(uint32_t(x) * 73856093U ^ uint32_t(y) * 19349663U ^ uint32_t(z) * 83492791U);
     return float(h >> 8) / 16777216.f;
 }
 inline float noise(V p) {  // value noise, about -1..1
     const float fx = std::floor(p.x), fy = std::floor(p.y), fz = std::floor(p.z);
     float u = p.x - fx, v = p.y - fy, w = p.z - fz;
-    u = u * u * (3 - 2 * u); v = v * v * (3 - 2 * v); w = w * w * (3 - 2 * w);
+    u = u * u * (3 - 2 * u);
+    v = v * v * (3 - 2 * v);
+    w = w * w * (3 - 2 * w);
     const int x = int(fx), y = int(fy), z = int(fz);
     const auto row = [&](int j, int k) { return mix(hash(x, j, k), hash(x + 1, j, k), u); };
     return 2 * mix(mix(row(y, z), row(y + 1, z), v), mix(row(y, z + 1), row(y + 1, z + 1), v), w) - 1;
@@ -96,8 +100,8 @@ float map(V p, int* material);  // given by the scene
 
 inline V normalAt(V p, float e = 0.0015f) {
     const V a{1, -1, -1}, b{-1, -1, 1}, c{-1, 1, -1}, d{1, 1, 1};
-    return norm(a * map(p + a * e, nullptr) + b * map(p + b * e, nullptr) +
-                c * map(p + c * e, nullptr) + d * map(p + d * e, nullptr));
+    return norm(a * map(p + a * e, nullptr) + b * map(p + b * e, nullptr) + c * map(p + c * e, nullptr) +
+                d * map(p + d * e, nullptr));
 }
 // Light that reaches p from direction l: 0 in full shadow, 1 in the open; small k is soft.
 inline float softShadow(V p, V l, float k, float far) {
@@ -136,8 +140,7 @@ struct Camera {
     V project(V p) const {  // pixel x, pixel y, distance from the eye
         const V q = p - eye;
         const float z = dot(q, ahead);
-        return {0.5f * float(w) + scale * dot(q, right) / z,
-                0.5f * float(h) - scale * dot(q, up) / z, length(q)};
+        return {0.5f * float(w) + scale * dot(q, right) / z, 0.5f * float(h) - scale * dot(q, up) / z, length(q)};
     }
 };
 
@@ -145,8 +148,7 @@ struct Picture {
     int w, h;
     std::vector<V> rgb;
     std::vector<float> depth;
-    Picture(int width, int height)
-        : w(width), h(height), rgb(size_t(w) * size_t(h)), depth(rgb.size(), 1e9f) {}
+    Picture(int width, int height) : w(width), h(height), rgb(size_t(w) * size_t(h)), depth(rgb.size(), 1e9f) {}
 };
 // March every pixel; shade(p, ray, material) colours a hit, background(x, y) the rest (x, y in 0..1).
 template <class Shade, class Background>
@@ -159,24 +161,35 @@ void render(Picture& pic, const Camera& cam, float near, float far, Shade shade,
             int m = -1;
             for (int s = 0; s < 160 && t < far; ++s) {
                 const float step = map(cam.eye + d * t, nullptr);
-                if (step < 0.0007f) { map(cam.eye + d * t, &m); break; }
+                if (step < 0.0007f) {
+                    map(cam.eye + d * t, &m);
+                    break;
+                }
                 t += step * 0.8f;
             }
-            if (m < 0) { pic.rgb[i] = background(float(x) / float(pic.w), float(y) / float(pic.h)); continue; }
+            if (m < 0) {
+                pic.rgb[i] = background(float(x) / float(pic.w), float(y) / float(pic.h));
+                continue;
+            }
             pic.depth[i] = t;
             pic.rgb[i] = shade(cam.eye + d * t, d, m);
         }
 }
 
 // Strokes: short straight pieces of hair, drawn from the farthest to the nearest.
-struct Stroke { V a, b; V colour; float width, alpha, bias; };
+struct Stroke {
+    V a, b;
+    V colour;
+    float width, alpha, bias;
+};
 inline void drawStrokes(Picture& pic, const Camera& cam, std::vector<Stroke>& strokes) {
-    struct Key { float z; size_t i; };
+    struct Key {
+        float z;
+        size_t i;
+    };
     std::vector<Key> order;
-    for (size_t i = 0; i < strokes.size(); ++i)
-        order.push_back({length(strokes[i].a - cam.eye), i});
-    std::sort(order.begin(), order.end(),
-              [](Key p, Key q) { return p.z != q.z ? p.z > q.z : p.i < q.i; });
+    for (size_t i = 0; i < strokes.size(); ++i) order.push_back({length(strokes[i].a - cam.eye), i});
+    std::sort(order.begin(), order.end(), [](Key p, Key q) { return p.z != q.z ? p.z > q.z : p.i < q.i; });
     for (const Key key : order) {
         const Stroke& s = strokes[key.i];
         const V a = cam.project(s.a), b = cam.project(s.b);

@@ -34,29 +34,30 @@ static float lipMask(V p) {  // 1 on the lips, 0 on the skin; p.x >= 0
     return smoothstep(-0.004f, 0.014f, std::min(top - p.y, p.y - low));
 }
 
-static float face(V p) {  // p.x >= 0
-    float d = ellipsoid(p, {0, 0.36f, -0.06f}, {0.755f, 0.80f, 0.96f});         // cranium
+static float face(V p) {                                                 // p.x >= 0
+    float d = ellipsoid(p, {0, 0.36f, -0.06f}, {0.755f, 0.80f, 0.96f});  // cranium
     d = smin(d, ellipsoid(p, {0, -0.33f, 0.32f}, {0.575f, 0.76f, 0.57f}), 0.28f);
     d = smin(d, capsule(p, {0.47f, -0.55f, 0.12f}, {0.13f, -0.98f, 0.62f}, 0.13f, 0.13f), 0.22f);
-    d = smin(d, ellipsoid(p, {0, -1.00f, 0.735f}, {0.15f, 0.13f, 0.13f}), 0.16f);    // chin
-    d = smin(d, ellipsoid(p, {0.41f, -0.22f, 0.58f}, {0.16f, 0.14f, 0.16f}), 0.26f); // cheekbone
-    d = smin(d, ellipsoid(p, {0.29f, -0.52f, 0.62f}, {0.18f, 0.22f, 0.16f}), 0.25f);  // cheek
-    d = smin(d, ellipsoid(p, {0, 0.50f, 0.66f}, {0.42f, 0.30f, 0.22f}), 0.2f);       // forehead
-    d = scut(d, ellipsoid(p, {0.31f, -0.02f, 0.99f}, {0.19f, 0.12f, 0.15f}), 0.13f); // socket
-    d = smin(d, capsule(p, {0.13f, 0.185f, 0.82f}, {0.46f, 0.20f, 0.65f}, 0.055f, 0.05f), 0.12f); // brow
-    d = smin(d, ellipsoid(p, {0, -0.68f, 0.76f}, {0.27f, 0.22f, 0.18f}), 0.16f);     // muzzle
+    d = smin(d, ellipsoid(p, {0, -1.00f, 0.735f}, {0.15f, 0.13f, 0.13f}), 0.16f);                  // chin
+    d = smin(d, ellipsoid(p, {0.41f, -0.22f, 0.58f}, {0.16f, 0.14f, 0.16f}), 0.26f);               // cheekbone
+    d = smin(d, ellipsoid(p, {0.29f, -0.52f, 0.62f}, {0.18f, 0.22f, 0.16f}), 0.25f);               // cheek
+    d = smin(d, ellipsoid(p, {0, 0.50f, 0.66f}, {0.42f, 0.30f, 0.22f}), 0.2f);                     // forehead
+    d = scut(d, ellipsoid(p, {0.31f, -0.02f, 0.99f}, {0.19f, 0.12f, 0.15f}), 0.13f);               // socket
+    d = smin(d, capsule(p, {0.13f, 0.185f, 0.82f}, {0.46f, 0.20f, 0.65f}, 0.055f, 0.05f), 0.12f);  // brow
+    d = smin(d, ellipsoid(p, {0, -0.68f, 0.76f}, {0.27f, 0.22f, 0.18f}), 0.16f);                   // muzzle
     // Nose: bridge, tip, wings, nostrils.
     d = smin(d, capsule(p, {0, 0.14f, 0.85f}, {0, -0.27f, 1.05f}, 0.042f, 0.060f), 0.12f);
     d = smin(d, ellipsoid(p, {0, -0.330f, 1.075f}, {0.080f, 0.07f, 0.075f}), 0.07f);
     d = smin(d, ellipsoid(p, {0.092f, -0.365f, 0.950f}, {0.048f, 0.052f, 0.085f}), 0.075f);
     d = scut(d, ellipsoid(p, {0.052f, -0.425f, 1.01f}, {0.026f, 0.024f, 0.046f}), 0.03f);
-    d = scut(d, capsule(p, {0, -0.47f, 1.0f}, {0, -0.58f, 1.0f}, 0.022f, 0.03f), 0.05f); // philtrum
+    d = scut(d, capsule(p, {0, -0.47f, 1.0f}, {0, -0.58f, 1.0f}, 0.022f, 0.03f), 0.05f);  // philtrum
     // Lips: two soft rolls and the line between them.
     const float m = mouthLine(p.x);
     d = smin(d, capsule(p, {0.03f, -0.652f, 0.935f}, {0.22f, -0.685f, 0.835f}, 0.044f, 0.02f), 0.05f);
     d = smin(d, capsule(p, {0.0f, -0.745f, 0.925f}, {0.12f, -0.735f, 0.895f}, 0.060f, 0.045f), 0.04f);
-    d = scut(d, std::max({std::fabs(p.y - m) - 0.004f, p.x - 0.235f, 0.7f - p.z}), 0.004f + 0.028f * clamp(1 - p.x / 0.25f));
-    d = scut(d, ellipsoid(p, {0, -0.865f, 0.945f}, {0.15f, 0.035f, 0.05f}), 0.07f);        // below lip
+    d = scut(d, std::max({std::fabs(p.y - m) - 0.004f, p.x - 0.235f, 0.7f - p.z}),
+             0.004f + 0.028f * clamp(1 - p.x / 0.25f));
+    d = scut(d, ellipsoid(p, {0, -0.865f, 0.945f}, {0.15f, 0.035f, 0.05f}), 0.07f);  // below lip
     // Lids: a shell round the eyeball, cut open; the crease above it.
     const V e = p - kEye;
     const float u = e.x, v = e.y, r = length(e);
@@ -102,7 +103,7 @@ static float hairMass(V p) {  // dark filling under the strands; head space
     const float part = p.x - 0.2f;
     const float top = 0.70f + 0.08f * std::exp(-part * part * 20) - 0.25f * p.x * p.x;
     const float q = ellipsoid({p.x, p.y > 0 ? p.y * 0.85f / top : p.y, 0}, {0, -0.15f, 0}, {0.66f, 1.0f, 1});
-    d = smax(d, std::min(0.9f, -std::max(q, 0.02f - p.z) ), 0.12f);
+    d = smax(d, std::min(0.9f, -std::max(q, 0.02f - p.z)), 0.12f);
     d = scut(d, ellipsoid(p, {0, -1.2f, 0.35f}, {0.52f, 0.9f, 0.7f}), 0.15f);
     return d;
 }
@@ -111,7 +112,12 @@ float map(V w, int* material) {
     const V p = toHead(w), s{std::fabs(p.x), p.y, p.z};
     float best = 1e9f;
     int m = Skin;
-    const auto join = [&](float d, int id) { if (d < best) { best = d; m = id; } };
+    const auto join = [&](float d, int id) {
+        if (d < best) {
+            best = d;
+            m = id;
+        }
+    };
     const float ball = length(p - V{0, -0.1f, 0}) - 1.5f;
     float skin = neckAndChest(w);
     if (ball < 0.3f) {
@@ -127,13 +133,29 @@ float map(V w, int* material) {
     if (body < 0.4f && w.y < -1.1f) {
         const float folds = 0.02f * noise({w.x * 4 + w.y * 2, w.y * 2.5f, w.z * 3});
         const float nape = w.y + 1.36f - 0.25f * (-0.35f - w.z);
-        const float vee = polygon(x, w.y, {{-0.3f, -2.35f}, {0, -2.35f}, {0.42f, -1.45f}, {0.3f, -1.1f}, {-0.3f, -1.1f}});
+        const float vee =
+            polygon(x, w.y, {{-0.3f, -2.35f}, {0, -2.35f}, {0.42f, -1.45f}, {0.3f, -1.1f}, {-0.3f, -1.1f}});
         join(std::max({body - 0.03f - folds * 0.4f, front < 0 ? -vee : nape, nape}) * 0.8f, Shirt);
-        join(std::max({body - 0.075f, front - 0.35f, polygon(x, w.y, {{0.38f, -1.36f}, {0.09f, -2.00f}, {0.34f, -2.19f}, {0.70f, -1.66f}})}) * 0.7f - 0.008f, Shirt);
-        const float opening = polygon(x, w.y, {{-0.3f, -2.72f}, {0, -2.72f}, {0.60f, -1.56f}, {0.3f, -1.1f}, {-0.3f, -1.1f}});
+        join(std::max({body - 0.075f, front - 0.35f,
+                       polygon(x, w.y, {{0.38f, -1.36f}, {0.09f, -2.00f}, {0.34f, -2.19f}, {0.70f, -1.66f}})}) *
+                     0.7f -
+                 0.008f,
+             Shirt);
+        const float opening =
+            polygon(x, w.y, {{-0.3f, -2.72f}, {0, -2.72f}, {0.60f, -1.56f}, {0.3f, -1.1f}, {-0.3f, -1.1f}});
         join(std::max({body - 0.09f - folds, front < 0 ? -opening : nape - 0.02f, nape - 0.02f}) * 0.8f, Coat);
-        join(std::max({body - 0.14f - folds * 0.7f, front, polygon(x, w.y, {{0.52f, -1.68f}, {0.11f, -2.5f}, {0.52f, -2.6f}, {0.88f, -2.20f},
-             {0.74f, -2.12f}, {0.93f, -2.04f}, {0.70f, -1.62f}})}) * 0.7f - 0.008f, Coat);
+        join(std::max({body - 0.14f - folds * 0.7f, front,
+                       polygon(x, w.y,
+                               {{0.52f, -1.68f},
+                                {0.11f, -2.5f},
+                                {0.52f, -2.6f},
+                                {0.88f, -2.20f},
+                                {0.74f, -2.12f},
+                                {0.93f, -2.04f},
+                                {0.70f, -1.62f}})}) *
+                     0.7f -
+                 0.008f,
+             Coat);
     }
     if (material) *material = m;
     return best;
@@ -158,12 +180,18 @@ static V shadeHit(V p, V d, int m) {
         const float open = lidOpening(e.x, e.y);
         if (h.z > 0.5f && length(e) < 0.3f) {  // lash line and shaded lids
             albedo = mix(albedo, V{0.42f, 0.24f, 0.20f}, 0.6f * smoothstep(0.09f, 0.02f, open));
-            if (e.y - 0.1f * e.x > 0) albedo = mix(albedo, V{0.03f, 0.02f, 0.02f}, smoothstep(0.022f, 0.008f, open));
-            else albedo = mix(albedo, V{0.12f, 0.07f, 0.06f}, 0.7f * smoothstep(0.012f, 0.004f, open));
+            if (e.y - 0.1f * e.x > 0)
+                albedo = mix(albedo, V{0.03f, 0.02f, 0.02f}, smoothstep(0.022f, 0.008f, open));
+            else
+                albedo = mix(albedo, V{0.12f, 0.07f, 0.06f}, 0.7f * smoothstep(0.012f, 0.004f, open));
         }
         if (s.x < 0.1f && h.z > 0.9f && std::fabs(h.y + 0.43f) < 0.04f)  // nostril
-            albedo = mix(albedo, V{0.12f, 0.05f, 0.04f}, smoothstep(1.1f, 0.8f, length((s - V{0.052f, -0.425f, 1.01f}) * V{1 / .030f, 1 / .03f, 1 / .055f})));
-        gloss = 0.10f + 0.30f * lips; power = lips > 0.5f ? 40.f : 14.f; wrap = 0.25f;
+            albedo = mix(
+                albedo, V{0.12f, 0.05f, 0.04f},
+                smoothstep(1.1f, 0.8f, length((s - V{0.052f, -0.425f, 1.01f}) * V{1 / .030f, 1 / .03f, 1 / .055f})));
+        gloss = 0.10f + 0.30f * lips;
+        power = lips > 0.5f ? 40.f : 14.f;
+        wrap = 0.25f;
     } else if (m == Eye) {
         const V c = toWorld({h.x < 0 ? -kEye.x : kEye.x, kEye.y, kEye.z});
         const V gaze = norm(kEyePos + V{-1.0f, 0.2f, 0} - c);
@@ -171,20 +199,24 @@ static V shadeHit(V p, V d, int m) {
         const float a = std::acos(clamp(dot(o, gaze), -1, 1)) * kEyeR;
         albedo = V{0.86f, 0.84f, 0.82f};
         const float ray = noise(norm(o - gaze * dot(o, gaze)) * 14);
-        const V iris = mix(V{0.16f, 0.20f, 0.19f}, V{0.34f, 0.36f, 0.30f}, clamp(0.5f + 0.5f * ray)) * (0.70f + 6 * std::max(0.085f - a, 0.f));
+        const V iris = mix(V{0.16f, 0.20f, 0.19f}, V{0.34f, 0.36f, 0.30f}, clamp(0.5f + 0.5f * ray)) *
+                       (0.70f + 6 * std::max(0.085f - a, 0.f));
         albedo = mix(albedo, iris, smoothstep(0.096f, 0.088f, a));
         albedo = mix(albedo, V{0.03f, 0.03f, 0.03f}, 0.85f * smoothstep(0.012f, 0.004f, std::fabs(a - 0.088f)));
         albedo = mix(albedo, V{0.005f, 0.005f, 0.005f}, smoothstep(0.042f, 0.036f, a));
         const float glint = length(o - norm(gaze + V{-0.16f, 0.17f, 0.05f}));
         if (glint < 0.10f) return V{1, 1, 1} * 1.2f;
         n = norm(mix(n, gaze, 0.35f));
-        gloss = 0.2f; power = 60; wrap = 0.3f;
+        gloss = 0.2f;
+        power = 60;
+        wrap = 0.3f;
     } else if (m == HairMass) {
         albedo = V{0.045f, 0.030f, 0.022f};
     } else if (m == Coat) {
         const float weave = noise({p.x * 60 + p.y * 60, p.y * 60 - p.x * 60, p.z * 40});
         albedo = V{0.022f, 0.025f, 0.033f} * (1 + 0.35f * weave);
-        gloss = 0.03f; power = 8;
+        gloss = 0.03f;
+        power = 8;
     } else {
         albedo = V{0.86f, 0.86f, 0.88f};
     }
@@ -192,7 +224,8 @@ static V shadeHit(V p, V d, int m) {
     const float key = clamp((dot(n, kKey) + wrap) / (1 + wrap)) * shadow;
     const float sky = (0.6f + 0.4f * n.y) * ao, fill = clamp(dot(n, norm({0.6f, 0.1f, 0.8f}))) * ao;
     const float rim = m == HairMass ? 0 : clamp(dot(n, kRim)) * ao;
-    V light = V{1.0f, 0.95f, 0.88f} * (1.15f * key) + V{0.75f, 0.82f, 1.0f} * (0.11f * sky + 0.08f * fill + 0.16f * rim);
+    V light =
+        V{1.0f, 0.95f, 0.88f} * (1.15f * key) + V{0.75f, 0.82f, 1.0f} * (0.11f * sky + 0.08f * fill + 0.16f * rim);
     if (m == Skin) light = light + V{0.05f, 0.015f, 0.008f} * (shadow * (1 - key));
     const V half = norm(kKey - d);
     const float fresnel = 0.5f + 1.5f * std::pow(1 - clamp(-dot(n, d)), 4.f);
@@ -237,7 +270,8 @@ static void growHair(std::vector<Stroke>& out, float px) {
             const V j{rnd(-1, 1), rnd(-1, 1), rnd(-1, 1)};
             const float thick = 0.01f + 0.09f * layer + 0.02f * rnd(), end = tall + 0.06f * j.y;
             V p = V{0, 0.36f, -0.10f} + norm(root + j * 0.07f) * V{0.87f, 0.91f, 1.05f};
-            V dir = norm(V{side, 0.35f, root.z > 0.1f ? 0.30f - 0.45f * smoothstep(0.15f, 0.45f, std::fabs(part)) : -0.2f});
+            V dir =
+                norm(V{side, 0.35f, root.z > 0.1f ? 0.30f - 0.45f * smoothstep(0.15f, 0.45f, std::fabs(part)) : -0.2f});
             std::vector<V> pts{p};
             bool kinked = false;
             for (int i = 0; i < 90 && p.y > end; ++i) {
@@ -267,7 +301,8 @@ static void growHair(std::vector<Stroke>& out, float px) {
             V b{sgn * (u + rnd(0.03f, 0.06f)), a.y + mix(0.035f, -0.015f, t), 1.1f};
             for (V* p : {&a, &b})
                 for (int k = 0; k < 40; ++k) p->z -= 0.8f * std::max(face({std::fabs(p->x), p->y, p->z}) - 0.006f, 0.f);
-            out.push_back({toWorld(a), toWorld(b), V{0.035f, 0.022f, 0.016f} * rnd(0.7f, 1.6f), px * 1.1f, 0.8f, 0.03f});
+            out.push_back(
+                {toWorld(a), toWorld(b), V{0.035f, 0.022f, 0.016f} * rnd(0.7f, 1.6f), px * 1.1f, 0.8f, 0.03f});
         }
         for (int i = 0; i < 60; ++i) {
             const float u = mix(-0.14f, 0.175f, rnd()), t = u / 0.175f;

@@ -12,7 +12,8 @@ namespace {
 
 void copy_style(const Arguments& arguments) {
     if (arguments.names.size() != 2)
-        throw Error(ErrorCode::bad_usage, "--copy", "needs a style and a file", "write dstylize styles --copy vine mine.toml");
+        throw Error(ErrorCode::bad_usage, "--copy", "needs a style and a file",
+                    "write dstylize styles --copy vine mine.toml");
     copy_style_file(arguments.names[0], user_style_folder(), arguments.names[1], arguments.force);
 }
 

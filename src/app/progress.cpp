@@ -12,7 +12,12 @@ using namespace std::chrono_literals;
 constexpr auto kSilentFor = 1s;
 constexpr auto kRedraw = 200ms;
 constexpr std::size_t kLongestStep = 50;  // of a line that must not wrap
+constexpr double kShareThatTells = 0.05;
 constexpr const char* kClearLine = "\r\033[K";
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -27,6 +32,8 @@ void Progress::begin(std::string_view step, double share_done) {
     end_step();
     steps_.emplace_back(step, 0.0);
     share_done_ = share_done;
+    const double elapsed = seconds_since(start_);
+    left_at_step_start_ = share_done > kShareThatTells ? elapsed / share_done - elapsed : 0;
 }
 
 void Progress::end_step() {
@@ -55,10 +62,10 @@ void Progress::keep_drawing(const std::stop_token& stop) {
     wake_.wait_for(lock, stop, kSilentFor, [] { return false; });
     while (!stop.stop_requested()) {
         if (!steps_.empty()) {
-            const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
             std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep),
                                            100 * share_done_);
-            if (share_done_ > 0.05) line += fmt::format(" · {:.0f} s left", elapsed / share_done_ - elapsed);
+            const double left = left_at_step_start_ - seconds_since(step_start_);
+            if (left >= 1) line += fmt::format(" · {:.0f} s left", left);
             std::fputs(line.c_str(), stderr);
             std::fflush(stderr);
             drawn = true;

@@ -34,7 +34,7 @@ class Progress {
     const Clock::time_point start_ = Clock::now();
     Clock::time_point step_start_ = start_, finished_ = start_;
     std::vector<std::pair<std::string, double>> steps_;
-    double share_done_ = 0;
+    double share_done_ = 0, left_at_step_start_ = 0;
     bool is_finished_ = false;
     std::mutex mutex_;
     std::condition_variable_any wake_;

@@ -57,8 +57,7 @@ struct Glow {
 };
 
 /// What a layer's strokes are as a body on the ground: rods, lit from one side, that cast a shadow, with a skin
-/// between those that lie close. Raster only: vector formats paint the strokes flat. Lengths in the list's
-/// pixels.
+/// between those that lie close. Vector formats hold it as a picture. Lengths in the list's pixels.
 struct Relief {
     Rgba tip;                 ///< strokes turn from their colour to this one towards their ends
     float tip_length_px = 8;  ///< over about this length

@@ -108,7 +108,7 @@ CodecProcess::~CodecProcess() { end(); }
 CodecProcess::Outcome CodecProcess::ask(const ipc::CodecRequest& request, const ipc::Descriptor& payload,
                                         ipc::CodecAnswer& answer, ipc::Descriptor& answer_payload, double timeout_s) {
     if (!greeted_) await_greeting();
-    if (!ipc::send_struct(channel_, request, payload.number())) return Outcome::died;
+    if (!ipc::send_struct(channel_, request, payload.number())) return Outcome::was_dead;
     const int timeout_ms = timeout_s <= 0 ? -1 : int(std::min(std::ceil(timeout_s * 1000), 2e9));
     switch (ipc::receive_struct(channel_, answer, answer_payload, timeout_ms)) {
         case ipc::Arrival::message: return Outcome::answered;

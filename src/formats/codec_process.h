@@ -21,7 +21,12 @@ class CodecProcess {
     /// Ends it if it still runs, and reaps it.
     ~CodecProcess();
 
-    enum class Outcome { answered, died, timed_out };
+    enum class Outcome {
+        answered,
+        died,  ///< while it had the request
+        timed_out,
+        was_dead,  ///< the request was not sent
+    };
 
     /// Sends one request with the memory `payload` and waits. Whatever but `answered` leaves a process
     /// that is of no more use. Throws Error(failed) when the program never came up or is another version.

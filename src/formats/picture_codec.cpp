@@ -58,8 +58,15 @@ Reply reply(const CodecOptions& options, std::unique_ptr<CodecProcess>& process,
     if (!process) renew();
     Reply reply;
     using Outcome = CodecProcess::Outcome;
-    switch (process->ask(request, payload, reply.answer, reply.payload, options.timeout_s)) {
+    const auto ask = [&] { return process->ask(request, payload, reply.answer, reply.payload, options.timeout_s); };
+    Outcome outcome = ask();
+    if (outcome == Outcome::was_dead) {  // no fault of this picture
+        renew();
+        outcome = ask();
+    }
+    switch (outcome) {
         case Outcome::answered: break;
+        case Outcome::was_dead:
         case Outcome::died: {
             const std::string how = process->cause_of_death();
             renew();

@@ -1,6 +1,6 @@
 // Lichen writing: the dendrite as a foliose thallus on stone. Lobes swell and turn pale towards their tips,
 // old parts fill in between them, brown cups sit here and there; relief, shadow and the stone's own grain come
-// from the layer effect Relief. Long & Mould 2007, fig. 13; lichens after Desbenoit et al. 2004.
+// from the layer effect Relief. Xu & Mould 2007, fig. 13; lichens after Desbenoit et al. 2004.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,10 +46,10 @@ class Lichen final : public Metaphor {
     }
 
     DisplayList draw(const Subject& subject) const override {
-        const float ground = ground_luma(subject);
+        const Ground ground = ground_below(subject);
         const Species species = chosen(ground);
         DisplayList list{subject.width_px, subject.height_px, {rgb(88, 85, 84), 0, subject.seed}, {}};
-        if (ground >= kPaper) list.paper.picture = basalt(subject);
+        if (ground.is_paper()) list.paper.picture = basalt(subject);
         Layer thallus{"thallus", Blend::max, {}};
         for (VariableStroke stroke : subject.strokes) {
             stroke.colour = species.thallus;
@@ -64,21 +64,28 @@ class Lichen final : public Metaphor {
 
   private:
     enum class Kind { automatic, sage, orange, slate, own };
-    static constexpr float kPaper = 0.97f;
 
-    /// Mean luma of the picture where the letters are.
-    static float ground_luma(const Subject& subject) {
+    /// Luma of the picture where the letters are.
+    struct Ground {
+        float mean = 1, deviation = 0;
+        bool is_paper() const { return mean >= 0.97f; }
+    };
+    static Ground ground_below(const Subject& subject) {
         const Grid<float>&luma = subject.field("luma"), &shape = subject.field("shape");
-        double sum = 0, area = 0;
+        double area = 0, sum = 0, squares = 0;
         for (std::size_t n = 0; n < luma.size(); ++n) {
-            sum += double(luma[n]) * double(shape[n]);
             area += double(shape[n]);
+            sum += double(luma[n]) * double(shape[n]);
+            squares += double(luma[n]) * double(luma[n]) * double(shape[n]);
         }
-        return area > 0 ? float(sum / area) : 1;
+        if (area <= 0) return {};
+        const double mean = sum / area;
+        return {float(mean), float(std::sqrt(std::max(0.0, squares / area - mean * mean)))};
     }
 
-    Species chosen(float ground) const {
-        constexpr float kDark = 0.40f, kPale = 0.66f;
+    /// Sage only stands out from what is dark and even; orange from all but the palest.
+    Species chosen(const Ground& ground) const {
+        constexpr float kDark = 0.36f, kEven = 0.13f, kPale = 0.70f;
         switch (kind_) {
             case Kind::sage: return kSage;
             case Kind::orange: return kOrange;
@@ -86,7 +93,8 @@ class Lichen final : public Metaphor {
             case Kind::own: return own_;
             case Kind::automatic: break;
         }
-        return ground >= kPaper || ground < kDark ? kSage : ground < kPale ? kOrange : kSlate;
+        if (ground.is_paper() || (ground.mean < kDark && ground.deviation < kEven)) return kSage;
+        return ground.mean < kPale ? kOrange : kSlate;
     }
 
     void swell(VariableStroke& stroke, float u_px) const {
@@ -165,7 +173,7 @@ class Lichen final : public Metaphor {
     Species own_ = kSage;
     float swell_ = 0.45f, swell_length_ = 8, height_ = 0.72f, roughness_ = 0.5f, light_angle_deg_ = 230;
     float gap_ = 0.75f, gap_reach_ = 2.7f;
-    float shadow_ = 0.55f, shadow_length_ = 3.2f, contact_ = 0.4f, drape_ = 0.5f, cups_ = 4;
+    float shadow_ = 0.55f, shadow_length_ = 3.2f, contact_ = 0.55f, drape_ = 0.8f, cups_ = 4;
 };
 
 }  // namespace

@@ -52,7 +52,7 @@ std::shared_ptr<const Picture> basalt(const Subject& subject) {
     const ValueNoise clouds = noise(0, 210), stains = noise(1, 90), bumps = noise(2, 14), grains = noise(3, 5),
                      fine = noise(4, 2), pits = noise(5, 9), flecks = noise(6, 3.2f);
     const auto height = [&](int x, int y) {
-        return 1.3f * bumps(x, y) + 0.9f * grains(x, y) - 2.2f * smoothstep(0.66f, 0.8f, pits(x, y));
+        return 1.3f * bumps(x, y) + 0.9f * grains(x, y) - 1.5f * smoothstep(0.62f, 0.85f, pits(x, y));
     };
     auto out = std::make_shared<Picture>(size);
     for (int y = 0; y < size.y; ++y)
@@ -60,7 +60,7 @@ std::shared_ptr<const Picture> basalt(const Subject& subject) {
             const float slope = height(x + 1, y + 1) - height(x, y);
             const float warm = clouds(x, y) - 0.5f;
             float light = 0.27f + 0.07f * (stains(x, y) - 0.5f) + 0.10f * (fine(x, y) - 0.5f) + 0.055f * slope;
-            light += 0.16f * smoothstep(0.80f, 0.92f, flecks(x, y)) - 0.09f * smoothstep(0.64f, 0.8f, pits(x, y));
+            light += 0.16f * smoothstep(0.80f, 0.92f, flecks(x, y)) - 0.07f * smoothstep(0.60f, 0.85f, pits(x, y));
             const auto byte = [](float v) { return std::uint8_t(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f); };
             (*out)(x, y) = {byte(light * (1.02f + 0.12f * warm)), byte(light), byte(light * (1 - 0.12f * warm)), 255};
         }

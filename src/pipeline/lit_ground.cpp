@@ -42,8 +42,8 @@ Layer core_strokes(const Layer& layer) {
 }  // namespace
 
 DisplayList with_lit_ground(const DisplayList& list, int most_px, const Work& work) {
-    const auto glows = [](const Layer& layer) { return layer.glow.has_value(); };
-    const auto last = std::find_if(list.layers.rbegin(), list.layers.rend(), glows);
+    const auto is_effect = [](const Layer& layer) { return layer.glow || layer.relief; };
+    const auto last = std::find_if(list.layers.rbegin(), list.layers.rend(), is_effect);
     if (last == list.layers.rend()) return list;
     const auto above = last.base();
 

@@ -150,8 +150,9 @@ class Run {
     }
 
     void check_memory() const {
-        // Measured: raster, codec and shared memory per output pixel; fields, labels and heights per node.
-        constexpr double kBytesPerPixel = 24, kBytesPerNode = 220;
+        // Measured, and rounded up: raster, shared memory and encoder per output pixel; fields, labels and edge heights
+        // per node.
+        constexpr double kBytesPerPixel = 16, kBytesPerNode = 180;
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
         const double nodes = double(lattice_.count());
         const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);

@@ -21,8 +21,8 @@ struct Setting {
 };
 
 /// A style by name, built in or NAME.toml in the user's folder (which may be empty: none), or a style file
-/// by path (anything with a slash or ending in .toml), with the settings applied. Throws Error(bad_usage) with line and column for unknown keys (naming the
-/// nearest), wrong types and values out of range.
+/// by path (anything with a slash or ending in .toml), with the settings applied. Throws Error(bad_usage) with line and
+/// column for unknown keys (naming the nearest), wrong types and values out of range.
 Style load_style(const std::string& name_or_file, const std::vector<Setting>& settings = {},
                  const std::filesystem::path& user_folder = {});
 

@@ -193,8 +193,7 @@ std::string file_text(const std::string& path) {
     return text.str();
 }
 
-std::string style_text(const std::string& name_or_file, const std::filesystem::path& user_folder,
-                       std::string& origin) {
+std::string style_text(const std::string& name_or_file, const std::filesystem::path& user_folder, std::string& origin) {
     const bool is_file = name_or_file.find('/') != std::string::npos || name_or_file.ends_with(".toml");
     if (!is_file) {
         std::vector<std::string> names;

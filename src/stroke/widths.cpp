@@ -48,7 +48,9 @@ void WidthParameters::visit(ParameterVisitor& v) {
     v.field_weights({"fields", "", "weights of fields in the field width"}, fields);
     v.number({"field_gamma", "", "above 1 keeps strokes thin where those fields are low"}, field_gamma, 0.3f, 4);
     v.number({"path_alpha", "", "alpha: how fast path width falls; c is 1 at the dearest tip"}, path_alpha, 0, 200);
-    v.number({"path_side", "", "T of side branches by the order: 1, path_side, path_side^2, ..."}, path_side, 1, 10);
+    v.number(
+        {"path_side", "", "T of side branches by their order: 1, path_side, path_side^2, ...; they are 1 / T as wide"},
+        path_side, 1, 10);
     v.number({"branch_exponent", "", "share of tips to this power is the branch width (pipe model: 0.5)"},
              branch_exponent, 0.1f, 1);
     v.number({"tips_exponent", "", "number of tips to this power, times the narrowest, is the tips width"},
@@ -98,7 +100,8 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
     finish();
 }
 
-/// V = exp(-alpha (c T)^2), c the cost of the way from the root as a share of the dearest (000 s. 4.3).
+/// V / T, V = exp(-alpha (c T)^2), c the cost of the way from the root as a share of the dearest. There a
+/// stroke ends where V of the cost *across* it falls below a threshold, so that its width goes with 1 / T.
 void Widths::follow_paths() {
     std::vector<float> cost(dendrite_.size(), 0.0f);
     float dearest = 0;
@@ -115,7 +118,7 @@ void Widths::follow_paths() {
         const float side = std::pow(parameters_.path_side, float(branch.order));
         for (std::size_t k = branch.parent_branch == Branch::kNone ? 0 : 1; k < branch.nodes.size(); ++k) {
             const float c = cost[branch.nodes[k]] / dearest * side;
-            path_share_[branch.nodes[k]] = std::exp(-parameters_.path_alpha * c * c);
+            path_share_[branch.nodes[k]] = std::exp(-parameters_.path_alpha * c * c) / side;
         }
     }
 }

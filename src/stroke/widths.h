@@ -11,7 +11,7 @@ namespace dstylize {
 /// How wide the strokes are: the [width] table of a style. Lengths in u. The rules are blended by their
 /// weights: tone (wanted tone / line density, ours), importance (004 s. 4.3), branch (pipe model: a share of
 /// all tips), tips (pipe model: as many times the narrowest), constant, fields (any weighted sum of fields),
-/// piped (pipe model by width, pipe.h), path (V = exp(-alpha (c T)^2) of the path cost c, 000 s. 4.3).
+/// piped (pipe model by width, pipe.h), path (V / T, V = exp(-alpha (c T)^2) of the path cost c, 000 s. 4.3).
 struct WidthParameters {
     float tone = 1, importance = 0, branch = 0, tips = 0, constant = 0, field = 0, path = 0, piped = 0;
     float narrowest = 0.45f, widest = 4.2f;

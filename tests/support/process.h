@@ -42,6 +42,7 @@ class Process {
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
 
+    pid_t id() const { return pid_; }
     void send(int signal) const { ::kill(pid_, signal); }
     /// Its exit code, or 1000 + the signal that ended it.
     int wait() {

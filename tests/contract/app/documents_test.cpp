@@ -16,7 +16,7 @@ std::set<std::string> matches(const std::string& text, const std::string& patter
 }
 
 std::string repository_file(const std::string& path) {
-    const std::string text = file_bytes(std::filesystem::path(DSTYLIZE_SOURCE_DIR) / path);
+    std::string text = file_bytes(std::filesystem::path(DSTYLIZE_SOURCE_DIR) / path);
     EXPECT_FALSE(text.empty()) << path;
     return text;
 }
@@ -24,7 +24,7 @@ std::string repository_file(const std::string& path) {
 class DocumentsTest : public AppTest {
   protected:
     std::set<std::string> options() const {
-        return matches(run({"--help-all"}).out + run({"replay", "--help"}).out + run({"styles", "--help"}).out,
+        return matches(run({"--help-all"}).out + run({"write", "--help"}).out + run({"replay", "--help"}).out + run({"styles", "--help"}).out,
                        "[\\s,](--?[a-z][a-z-]*)(?=[, ])");
     }
 };
@@ -50,7 +50,7 @@ TEST_F(DocumentsTest, TheManualPageDescribesEveryOption) {
 TEST_F(DocumentsTest, BashCompletesEveryOption) {
     const std::string text = repository_file("completions/dstylize.bash");
     std::set<std::string> found;
-    for (const std::string& list : matches(text, "(?:output|draw|words)=['\"]([^'\"]*)['\"]"))
+    for (const std::string& list : matches(text, "(?:output|draw|draw_words|words)=['\"]([^'\"]*)['\"]"))
         found.merge(matches(" " + list + " ", "\\s(--?[a-z][a-z-]*)(?=\\s)"));
     EXPECT_EQ(found, options());
 }

@@ -113,6 +113,18 @@ TEST_F(OutputTest, GroundsAreWhatTheySay) {
     EXPECT_LT(empty, none.size());
 }
 
+TEST_F(OutputTest, OtherGroundsReplaceTheStylesOwnPicture) {
+    const auto stormy = [&](const std::string& background) {
+        expect_done(
+            run({"in.png", "storm.png", "--style", "storm", "--detail", "64", "--background", background, "--force"}));
+        return read_picture(folder_ / "storm.png").picture;
+    };
+    const Picture none = stormy("none"), green = stormy("#00ff00");
+    const auto corner = [](const Picture& picture) { return picture(1, picture.extent().y - 2); };
+    EXPECT_LT(corner(none).a, 60) << "where no bolt is near";
+    EXPECT_GT(corner(green).g, corner(green).r + 60);
+}
+
 TEST_F(OutputTest, ABackgroundPictureCoversTheFrame) {
     Picture tall = flat({40, 400}, {0, 0, 255, 255});
     for (int y = 180; y < 220; ++y)

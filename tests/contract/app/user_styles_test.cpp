@@ -34,7 +34,8 @@ TEST_F(UserStylesTest, ABrokenOneIsToldWhereAndDoesNotHideTheOthers) {
     EXPECT_EQ(listed.exit_code, 0);
     EXPECT_NE(listed.out.find("vine "), std::string::npos);
     EXPECT_NE(listed.out.find("broken.toml:4:1"), std::string::npos);
-    expect_error(run({"in.png", "out.png", "--style", "broken"}), 2, {"broken.toml:4:1", "did you mean 'width.widest'?"});
+    expect_error(run({"in.png", "out.png", "--style", "broken"}), 2,
+                 {"broken.toml:4:1", "did you mean 'width.widest'?"});
 }
 
 TEST_F(UserStylesTest, ACopyIsAStyleToStartFrom) {

@@ -69,6 +69,25 @@ TEST(PdfDocument, PopplerPaintsItLikeTheRaster) {
         expect_agreement(pdf_rendered(list, 320 * scale, 240 * scale), raster(list, {{320 * scale, 240 * scale}}, {}));
 }
 
+TEST(VectorDocuments, LightIsScreenedOverWhatLiesBelow) {
+    DisplayList list = test_drawing();
+    list.paper.colour = {0.5f, 0.3f, 0.2f, 1};
+    Glow glow;
+    glow.core = {0.5f, 0.7f, 1, 1};
+    const auto exposed = [&](float light) { return 1 - std::exp(-glow.exposure * light); };
+    Layer light{"light", Blend::max, {}, glow};
+    light.items.push_back(VariableStroke{{{20, 200}, {150, 90}, {300, 40}},
+                                         {20, 14, 8},
+                                         {exposed(glow.core.r), exposed(glow.core.g), exposed(glow.core.b), 1},
+                                         0,
+                                         0});
+    list.layers = {light};
+    const Picture wanted = raster(list, {{640, 480}}, {});
+    EXPECT_GT(wanted(300, 180).b, 180);
+    expect_agreement(svg_rendered(list, 640), wanted);
+    expect_agreement(pdf_rendered(list, 640, 480), wanted);
+}
+
 TEST(SvgDocument, TransparentPaperStaysTransparent) {
     DisplayList list = test_drawing();
     list.paper.colour.a = 0;
