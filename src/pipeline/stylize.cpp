@@ -189,7 +189,12 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     work.report("drawing", 0.85);
     const Frame to = frame(out.lattice, out.picture);
     std::vector<VariableStroke> drawn = strokes(best.lines, out.dendrite, best.branching, best.widths, to);
-    for (VariableStroke& stroke : drawn) stroke.layer = std::uint8_t(style.stages[stroke.stage].layer);
+    for (std::size_t s = 0; s < drawn.size(); ++s) {
+        // A trunk may go on as a branch behind: where a stroke begins says where it belongs.
+        const std::vector<std::uint32_t>& nodes = best.branching.branches[best.lines[s].branch].nodes;
+        const std::uint8_t stage = out.dendrite.stage[nodes[std::min<std::size_t>(1, nodes.size() - 1)]];
+        drawn[s].layer = std::uint8_t(style.stages[stage].layer);
+    }
     const std::vector<std::vector<float>> shares = tip_shares(best.lines, best.branching);
     out.strokes = drawn.size();
     out.width_u = std::move(best.widths);

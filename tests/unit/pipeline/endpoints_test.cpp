@@ -95,7 +95,7 @@ TEST(Endpoints, AboveMeansStraightUpAsFarAsTheGroundAllows) {
     EndpointParameters p;
     p.rule = EndpointParameters::Rule::above;
     p.reach = 40 / g.fields.u();
-    EXPECT_EQ(g.placed(p), std::vector<NodeId>{g.graph.lattice.at(30, 31)});
+    EXPECT_EQ(g.placed(p), std::vector<NodeId>{g.graph.lattice.at(30, 30)});
     g.graph.weight[index(g.graph.lattice.at(30, 45))] = kImpassable;
     EXPECT_EQ(g.placed(p), std::vector<NodeId>{g.graph.lattice.at(30, 46)});
 }
