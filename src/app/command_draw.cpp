@@ -27,6 +27,7 @@ void refuse_folder(const std::filesystem::path& input) {
 
 RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
                          Interrupt& interrupt) {
+    check_standard_output(request, arguments);
     Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
     Work work;
     work.stop = interrupt.token();

@@ -39,14 +39,14 @@ const char* usage(Parser::Form form) {
     switch (form) {
         case Parser::Form::draw:
             return "dstylize IN OUT [options]       redraw a picture as one branching structure\n"
-                   "dstylize write TEXT [IN] OUT    write words with branches, on a picture or on paper\n"
+                   "dstylize write TEXT [IN] OUT    write words with branches, on paper or a picture\n"
                    "dstylize replay OLD IN OUT      make the drawing OLD again, say at another size\n"
                    "dstylize styles [NAME]          list the styles, or one with all its parameters\n";
         case Parser::Form::write:
             return "dstylize write TEXT OUT [options]              words on paper\n"
                    "dstylize write TEXT IN OUT [options]           words on the picture IN\n"
-                   "dstylize write --mask FILE [IN] OUT [options]  letters or shapes that are white in FILE\n"
-                   "Grows a dendrite in every connected part of the letters. In TEXT, \\n begins a new line.\n";
+                   "dstylize write --mask FILE [IN] OUT [options]  shapes that are white in FILE\n"
+                   "Grows a dendrite in every part of the letters. In TEXT, \\n begins a new line.\n";
         case Parser::Form::replay:
             return "dstylize replay OLD IN OUT [options]\n"
                    "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
@@ -79,7 +79,7 @@ Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(argume
         add_run_options();
     } else {
         add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
-        add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to start one's own from"), kStyle);
+        add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to change it there"), kStyle);
         add(app_.add_flag("-f,--force", arguments_.force, "replace FILE"), kStyle);
     }
     add_help_options();
@@ -131,9 +131,7 @@ void Parser::add_hand_options() {
         ->type_name("PLACE")
         ->allow_extra_args(false);
     add(app_.add_option("--mask", a.mask, "grow only where this picture is white"), kHand)->type_name("FILE");
-    add(app_.add_option("--importance", a.importance,
-                        "multiply the importance by this picture; none: grow without the picture"),
-        kHand)
+    add(app_.add_option("--importance", a.importance, "multiply by this picture; none: use no picture"), kHand)
         ->type_name("FILE");
     add(app_.add_option("--importance-mode", a.importance_mode, "multiply (default) or replace"), kHand, false)
         ->type_name("MODE")
@@ -228,10 +226,6 @@ std::string Parser::help(bool all) {
 
 void set_output_options(RunRequest& request, const Arguments& a) {
     for (const std::string& output : a.outputs) request.outputs.emplace_back(output);
-    const auto writers = std::count(request.outputs.begin(), request.outputs.end(), "-") + (a.recipe_file == "-") +
-                         (a.json || a.dry_run);
-    if (writers > 1)
-        throw usage_error("", "more than one thing would be written to standard output", "write all but one to files");
     request.format = a.format;
     if (!a.size.empty()) request.size = parsed_output_size(a.size);
     if (a.scale > 0) request.size = {OutputSize::Kind::scale, a.scale, OutputSize::kDefaultDpi, {}, 0, 0};
@@ -242,6 +236,13 @@ void set_output_options(RunRequest& request, const Arguments& a) {
     request.force = a.force;
     request.dry_run = a.dry_run;
     request.max_memory_bytes = a.max_memory;
+}
+
+void check_standard_output(const RunRequest& request, const Arguments& a) {
+    const auto writers = std::count(request.outputs.begin(), request.outputs.end(), "-") + (a.recipe_file == "-") +
+                         (a.json || a.dry_run);
+    if (writers > 1)
+        throw usage_error("", "more than one thing would be written to standard output", "write all but one to files");
 }
 
 namespace {

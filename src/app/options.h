@@ -60,5 +60,7 @@ RunRequest draw_request(const Arguments& arguments);
 RunRequest write_request(const Arguments& arguments);
 /// The same for what `draw` and `replay` share: outputs and how they are written.
 void set_output_options(RunRequest& request, const Arguments& arguments);
+/// Throws Error(bad_usage) when more than one thing of the run would go to standard output.
+void check_standard_output(const RunRequest& request, const Arguments& arguments);
 
 }  // namespace dstylize::app

@@ -28,7 +28,9 @@ TEST(Skeleton, OfABarIsItsMiddleLine) {
     EXPECT_GT(count(axis), 80u);
     for (int j = 0; j < 40; ++j)
         for (int i = 30; i < 90; ++i)
-            if (axis(i, j)) EXPECT_NEAR(j, 20, 1) << i;
+            if (axis(i, j)) {
+                EXPECT_NEAR(j, 20, 1) << i;
+            }
 }
 
 TEST(Skeleton, KeepsOneLineForEveryPartHoweverSmall) {
@@ -53,7 +55,9 @@ TEST(Skeleton, OfARingIsARing) {
     EXPECT_EQ(parts(axis), 1);
     for (int j = 0; j < 80; ++j)
         for (int i = 0; i < 80; ++i)
-            if (axis(i, j)) EXPECT_NEAR(std::hypot(i - 40, j - 40), 25, 2.5);
+            if (axis(i, j)) {
+                EXPECT_NEAR(std::hypot(i - 40, j - 40), 25, 2.5);
+            }
     // The middle is still enclosed: nothing outside of the ring is joined to it but through the axis.
     Shape around({80, 80});
     for (std::size_t n = 0; n < around.size(); ++n) around[n] = !axis[n];
