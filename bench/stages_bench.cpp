@@ -36,8 +36,7 @@ struct Vine {
     Drawing drawing = stylize(picture, style, {});
 
     Vine() {
-        grown = grow(base.fields, base.passable, style, {}, picture.extent(),
-                     [&](const StageView& view) { keep(view); }, {});
+        grown = grow(base, style, {}, picture.extent(), [&](const StageView& view) { keep(view); }, {});
     }
     void keep(const StageView& view) {
         if (!sources.empty()) return;

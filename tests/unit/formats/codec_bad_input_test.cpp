@@ -10,7 +10,7 @@ using namespace std::string_literals;
 class CodecBadInput : public CodecTest {
   protected:
     static Error refusal(const FileBytes& file) {
-        const Error error = error_of([&] { decoded(file); });
+        Error error = error_of([&] { decoded(file); });
         EXPECT_EQ(error.code(), ErrorCode::cannot_read);
         EXPECT_EQ(error.file(), "picture");
         EXPECT_FALSE(error.problem().empty());

@@ -27,7 +27,7 @@ struct Ground {
             parent = drawn.add(node, graph.lattice.position_lattice(node), parent, 0, 0);
         }
     }
-    std::vector<NodeId> placed(EndpointParameters p, int batch = 0, int batches = 1) {
+    std::vector<NodeId> placed(const EndpointParameters& p, int batch = 0, int batches = 1) {
         return placed_endpoints(fields, p, {passable, graph, drawn, 0, batch, batches}, 7, {});
     }
 };
