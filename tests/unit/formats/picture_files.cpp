@@ -124,7 +124,7 @@ FileBytes webp_with_chunk(const FileBytes& webp, std::string_view name, std::str
     return file_of(text.replace(4, 4, le(text.size() - 8, 4)));
 }
 
-TiffTagBytes tiff_short(int id, std::vector<int> values) {
+TiffTagBytes tiff_short(int id, const std::vector<int>& values) {
     std::string bytes;
     for (const int value : values) bytes += le(std::uint64_t(value), 2);
     return {id, 3, std::uint32_t(values.size()), bytes};
