@@ -75,7 +75,9 @@ struct Drawn {
     Dendrite dendrite = test::tree({80, 80}, 6, 120).dendrite;
     Branching b = branching(dendrite);
     Grid<float> tone{Extent{80, 80}, 0.6f}, lines{Extent{80, 80}, 0.0f}, importance{Extent{80, 80}, 0.5f};
-    Widths widths(WidthParameters p, float u = 1) const { return Widths(dendrite, b, p, {tone, lines, importance}, u); }
+    Widths widths(const WidthParameters& p, float u = 1) const {
+        return Widths(dendrite, b, p, {tone, lines, importance}, u);
+    }
 };
 
 TEST(Widths, TipsRunOutAndBranchesStartInsideTheirParents) {
