@@ -28,13 +28,9 @@ Layer core_strokes(const Layer& layer) {
     Layer out{layer.name, layer.blend, {}, Glow{}};
     out.glow->core_gain = 0;  // what it adds beside its strokes is in the ground
     for (const auto& [light, item] : by_light) {
+        const Rgba lit{exposed(light * glow.core.r), exposed(light * glow.core.g), exposed(light * glow.core.b), 1};
         out.items.push_back(*item);
-        std::visit(
-            [&](auto& it) {
-                it.colour = {exposed(light * glow.core.r), exposed(light * glow.core.g), exposed(light * glow.core.b),
-                             1};
-            },
-            out.items.back());
+        std::visit([&lit](auto& it) { it.colour = lit; }, out.items.back());
     }
     return out;
 }

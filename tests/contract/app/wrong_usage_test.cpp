@@ -10,7 +10,8 @@ struct WrongUsage {
     Words says;
     int exit_code = 2;
 };
-void PrintTo(const WrongUsage& c, std::ostream* out) { *out << c.name; }
+// GoogleTest looks for a function of this name.
+void PrintTo(const WrongUsage& c, std::ostream* out) { *out << c.name; }  // NOLINT(readability-identifier-naming)
 
 class WrongUsageTest : public AppTest, public ::testing::WithParamInterface<WrongUsage> {};
 
