@@ -24,7 +24,8 @@ std::string repository_file(const std::string& path) {
 class DocumentsTest : public AppTest {
   protected:
     std::set<std::string> options() const {
-        return matches(run({"--help-all"}).out + run({"write", "--help"}).out + run({"replay", "--help"}).out + run({"styles", "--help"}).out,
+        return matches(run({"--help-all"}).out + run({"write", "--help"}).out + run({"replay", "--help"}).out +
+                           run({"styles", "--help"}).out,
                        "[\\s,](--?[a-z][a-z-]*)(?=[, ])");
     }
 };
