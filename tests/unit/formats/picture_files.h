@@ -50,7 +50,7 @@ struct TiffTagBytes {
     std::uint32_t count;
     std::string value;
 };
-TiffTagBytes tiff_short(int id, std::vector<int> values);
+TiffTagBytes tiff_short(int id, const std::vector<int>& values);
 TiffTagBytes tiff_long(int id, std::uint32_t value);
 struct TiffKind {
     int width = 1, height = 1, samples = 3, bits = 8;
