@@ -148,15 +148,17 @@ float crossing_factor(Vec2f step, Vec2f flow_u, Vec2f flow_v, float strength) {
 /// The heights of an irregular lattice's edges, one by one.
 void list_heights(WeightedLattice& g, const DirectionalCost& cost, const Work& work) {
     const Adjacency& a = *g.lattice.adjacency();
+    assert(cost.step_factor.empty() || cost.step_factor.size() == a.to.size());
     g.symmetric = false;
     g.height_plane.assign(1, std::vector<std::uint16_t>(a.to.size(), 0));
     const auto list_node = [&](std::uint32_t u) {
         for (std::uint32_t e = a.first[u]; e < a.first[u + 1]; ++e) {
             const std::uint32_t v = a.to[e];
             if (g.weight[u] == kImpassable || g.weight[v] == kImpassable) continue;
-            const Vec2f step = a.position_lattice[v] - a.position_lattice[u];
-            float factor = pull_factor(step, cost.pull);
-            if (!cost.flow.empty()) factor *= crossing_factor(step, cost.flow[u], cost.flow[v], cost.strength);
+            float factor = cost.step_factor.empty() ? 1 : cost.step_factor[e];
+            if (!cost.flow.empty())
+                factor *= crossing_factor(a.position_lattice[v] - a.position_lattice[u], cost.flow[u], cost.flow[v],
+                                          cost.strength);
             const float height = float(g.weight[u] + g.weight[v]) * std::min(factor, DirectionalCost::kLargestFactor);
             g.height_plane[0][e] = std::uint16_t(std::clamp(height + 0.5f, 1.0f, float(kLargestHeight)));
         }
@@ -181,6 +183,12 @@ float pull_factor(Vec2f step, Vec2f pull) {
 std::vector<float> pull_factors(const Lattice& lattice, Vec2f pull) {
     std::vector<float> factor;
     for (const Step s : lattice.steps()) factor.push_back(pull_factor({float(s.dx), float(s.dy)}, pull));
+    if (const Adjacency* a = lattice.adjacency()) {
+        factor.reserve(a->to.size());
+        for (std::uint32_t u = 0; u < lattice.node_count(); ++u)
+            for (std::uint32_t e = a->first[u]; e < a->first[u + 1]; ++e)
+                factor.push_back(pull_factor(a->position_lattice[a->to[e]] - a->position_lattice[u], pull));
+    }
     return factor;
 }
 

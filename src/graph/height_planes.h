@@ -19,17 +19,15 @@ struct DirectionalCost {
     /// A >= 0: heights are multiplied by 1 + A * coherence * sin^2(angle between step and flow), the
     /// coherence and the flow being the mean of both ends'.
     float strength = 0;
-    /// Empty, or one factor > 0 per step of the lattice. Irregular lattices have none and use `pull`.
+    /// Empty, or one factor > 0 per step of a regular lattice, or per edge of an irregular one's adjacency.
     std::vector<float> step_factor;
-    /// Irregular lattices: heights are multiplied by pull_factor(step, pull).
-    Vec2f pull{};
 };
 
 /// How much dearer a step is for not going the way of `pull`: 1 along it, 1 + |pull| against it, walking
 /// from the root to the tips (tropism, wind, gravity).
 float pull_factor(Vec2f step, Vec2f pull);
 
-/// That factor for every step of a regular lattice.
+/// That factor for every step of a regular lattice, or every edge of an irregular one's adjacency.
 std::vector<float> pull_factors(const Lattice& lattice, Vec2f pull);
 
 /// Step factors for growth that falls (lightning): 1 straight down, 1 + down straight up, walking from

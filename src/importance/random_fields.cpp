@@ -2,6 +2,7 @@
 // samples that one grid: half the detail is then an honest preview of the full one.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "imaging/filters.h"
 #include "importance/detail_field_functions.h"
@@ -24,6 +25,14 @@ Grid<float> white_noise(Fields& fields) {
     return out;
 }
 
+namespace {
+/// Where a node lies among coarse cells: so far from one to the next.
+struct Between {
+    int cell;
+    float share;
+};
+}  // namespace
+
 Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u, float sigma_u,
                              std::uint32_t substream) {
     const Noise noise(fields.seed(), purpose, substream);
@@ -37,16 +46,24 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
     coarse = blurred(coarse, sigma_u / cell_u);
     // The blur of independent samples of variance 1/12 by a Gaussian has variance 1 / (12 * 4 pi sigma^2).
     const float deviation = std::sqrt(1 / (12 * 4 * 3.14159265f)) / (sigma_u / cell_u);
+    const auto between = [nodes_per_cell](int node, int cell_count) {
+        const float x = (float(node) + 0.5f) / nodes_per_cell;
+        const int cell = std::min(int(x), cell_count - 2);
+        return Between{cell, x - float(cell)};
+    };
+    std::vector<Between> column;
+    for (int i = 0; i < e.x; ++i) column.push_back(between(i, cells.x));
+    std::vector<float> row(std::size_t(cells.x));
     Grid<float> out(e);
-    for (int j = 0; j < e.y; ++j)
+    for (int j = 0; j < e.y; ++j) {
+        const Between at = between(j, cells.y);
+        for (int c = 0; c < cells.x; ++c)
+            row[std::size_t(c)] = (coarse(c, at.cell) * (1 - at.share) + coarse(c, at.cell + 1) * at.share) / deviation;
         for (int i = 0; i < e.x; ++i) {
-            const float x = (float(i) + 0.5f) / nodes_per_cell, y = (float(j) + 0.5f) / nodes_per_cell;
-            const int cx = std::min(int(x), cells.x - 2), cy = std::min(int(y), cells.y - 2);
-            const float fx = x - float(cx), fy = y - float(cy);
-            const float top = coarse(cx, cy) * (1 - fx) + coarse(cx + 1, cy) * fx;
-            const float bottom = coarse(cx, cy + 1) * (1 - fx) + coarse(cx + 1, cy + 1) * fx;
-            out(i, j) = (top * (1 - fy) + bottom * fy) / deviation;
+            const auto [cell, share] = column[std::size_t(i)];
+            out(i, j) = row[std::size_t(cell)] * (1 - share) + row[std::size_t(cell) + 1] * share;
         }
+    }
     return out;
 }
 

@@ -52,8 +52,21 @@ void add_noise(Grid<float>& cost, const Fields& fields, const Round& round) {
     }
 }
 
+/// What direction adds to a stage's costs: the same for all of its rounds.
+DirectionalCost directional_cost(Fields& fields, const Lattice& lattice, const StageParameters& stage) {
+    DirectionalCost out;
+    if (stage.along_flow > 0) out.flow = fields.flow();
+    out.strength = stage.along_flow;
+    const Vec2f pull{stage.wind, stage.down - stage.up};
+    if (length(pull) <= 0) return out;
+    const bool falls = !lattice.adjacency() && pull.x == 0 && pull.y > 0;
+    out.step_factor = falls ? downward_bias(lattice, pull.y) : pull_factors(lattice, pull);
+    return out;
+}
+
 /// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
-WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Work& work) {
+WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round,
+                        const DirectionalCost& directional, const Work& work) {
     const StageParameters& stage = round.stage;
     WeightedLattice graph{base.lattice, {}, {}, true};
     Grid<float> cost = node_cost(fields, round);
@@ -70,19 +83,7 @@ WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round
         if (stage.cost_power != 1) c = std::pow(c, stage.cost_power);
         graph.weight[n] = NodeWeight(1 + std::lround(top * std::min(1.0f, c / stage.cost_max)));
     }
-    const Vec2f pull{stage.wind, stage.down - stage.up};
-    if (stage.along_flow > 0 || length(pull) > 0) {
-        DirectionalCost directional;
-        if (stage.along_flow > 0) directional.flow = fields.flow();
-        directional.strength = stage.along_flow;
-        if (scattered)
-            directional.pull = pull;
-        else if (pull.x == 0 && pull.y > 0)
-            directional.step_factor = downward_bias(graph.lattice, pull.y);
-        else if (length(pull) > 0)
-            directional.step_factor = pull_factors(graph.lattice, pull);
-        build_height_planes(graph, directional, work);
-    }
+    if (!directional.flow.empty() || !directional.step_factor.empty()) build_height_planes(graph, directional, work);
     return graph;
 }
 
@@ -214,6 +215,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
         out.endpoints.push_back(0);
         if (s > 0 && stage.layer != style.stages[s - 1].layer) growth.start_layer(0);
         const bool given = !controls.endpoints.empty();
+        const DirectionalCost directional = directional_cost(fields, base.lattice, stage);
         for (int batch = 0; batch < (given ? 1 : stage.batches); ++batch) {
             const Round round{stage, std::uint32_t(s), batch};
             const double done = double(s) + double(batch) / stage.batches;
@@ -225,7 +227,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 transform(share, [](float v) { return std::clamp(2 * v, 0.0f, 1.0f); });
                 fields.replace("lacking", std::move(share));
             }
-            const WeightedLattice graph = weights(fields, base, round, work);
+            const WeightedLattice graph = weights(fields, base, round, directional, work);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))

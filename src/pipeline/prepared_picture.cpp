@@ -14,15 +14,18 @@ namespace {
 
 Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
                                   Fields& fields) {
-    constexpr float kHalf = 0.5f, kMostMargin = 0.1f;  // of the short side
+    constexpr float kHalf = 0.5f, kAlmostNothing = 0.5f / 255, kMostMargin = 0.1f;  // of the short side
     const Extent lattice = fields.extent();
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
+    // An evenly translucent picture is a picture, too: what counts is how opaque a place is beside the others.
+    const float least_alpha = std::max(kHalf * *std::max_element(alpha.begin(), alpha.end()), kAlmostNothing);
     const Grid<std::uint8_t>* mask = controls.mask ? &fields.shape_interior() : nullptr;
     const int short_side = std::min(lattice.x, lattice.y);
     const int margin = int(std::min(style.lattice.margin * fields.u(), kMostMargin * float(short_side)));
     Grid<std::uint8_t> out(lattice);
     for (int j = margin; j < lattice.y - margin; ++j)
-        for (int i = margin; i < lattice.x - margin; ++i) out(i, j) = alpha(i, j) >= kHalf && (!mask || (*mask)(i, j));
+        for (int i = margin; i < lattice.x - margin; ++i)
+            out(i, j) = alpha(i, j) >= least_alpha && (!mask || (*mask)(i, j));
     return out;
 }
 
@@ -80,8 +83,8 @@ LatticeScale lattice_scale(Extent picture, const LatticeParameters& parameters, 
     return {lattice, u_px * float(lattice.long_side()) / side};
 }
 
-PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
-                                 const Work& work) {
+PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls, const Work& work,
+                                 const PreparedPicture* other) {
     const LatticeScale scale =
         lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
     UserMaps maps;
@@ -95,7 +98,8 @@ PreparedPicture prepared_picture(const Picture& picture, const Style& style, con
     Fields fields(placed(luma, scale.extent, style.lattice), style.fields, std::move(maps), controls.seed,
                   scale.nodes_per_u);
     Grid<std::uint8_t> passable = passable_nodes(picture, style, controls, fields);
-    Lattice lattice = laid_lattice(passable, style.lattice, controls.seed, work);
+    const bool same_ground = other && std::equal(passable.begin(), passable.end(), other->passable.begin());
+    Lattice lattice = same_ground ? other->lattice : laid_lattice(passable, style.lattice, controls.seed, work);
     return {std::move(fields), std::move(lattice), std::move(passable)};
 }
 

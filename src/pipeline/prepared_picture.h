@@ -10,7 +10,9 @@ struct PreparedPicture {
     Lattice lattice;
     Grid<std::uint8_t> passable;
 };
+/// `other`: null, or the same picture prepared for another seed, whose lattice is then shared where the same nodes
+/// are passable.
 PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
-                                 const Work& work = {});
+                                 const Work& work = {}, const PreparedPicture* other = nullptr);
 
 }  // namespace dstylize

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/noise.h"
+#include "pipeline/candidate.h"
 #include "pipeline/growth.h"
 #include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
@@ -149,11 +150,16 @@ Picture shown(const std::string& name, const Picture& picture, const Style& styl
     if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end())
         return field_picture(base.fields[name]);
 
+    Controls chosen = controls;
+    if (style.choice.growths > 1) {
+        chosen.seed = best_candidate(picture, style, controls, work).seed;
+        base = prepared_picture(picture, style, chosen, work, &base);
+    }
     std::optional<Picture> out;
     const auto observe = [&](const StageView& stage) {
         if (stage.stage.name == stage_name && view != "tree") out = stage_picture(view, stage);
     };
-    const Grown grown = grow(base, style, controls, picture.extent(), observe, work);
+    const Grown grown = grow(base, style, chosen, picture.extent(), observe, work);
     if (out) return *out;
     return tree_picture(base.lattice, grown.dendrite);
 }

@@ -105,7 +105,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, Goldens,
                          ::testing::Values(Golden{"vine", "portrait"}, Golden{"vine", "still-life"},
                                            Golden{"ink", "cat"}, Golden{"lightning", "portrait"},
                                            Golden{"storm", "sky"}, Golden{"letters", "letters", true},
-                                           Golden{"lichen-letters", "letters", true}),
+                                           Golden{"lichen-letters", "letters", true}, Golden{"tree", "cat"},
+                                           Golden{"pareidolia", "portrait"}, Golden{"autumn", "portrait"}),
                          [](const auto& row) {
                              std::string name = std::string(row.param.style) + "_" + row.param.sample;
                              std::replace(name.begin(), name.end(), '-', '_');

@@ -76,7 +76,8 @@ test::RandomGraph scattered_graph(std::uint32_t seed) {
     r.graph.weight[0] = 1;
     if (dice.one_in(2)) {
         DirectionalCost cost;
-        cost.pull = {dice.unit() - 0.5f, -dice.unit()};
+        const Vec2f pull{dice.unit() - 0.5f, -dice.unit()};
+        cost.step_factor = pull_factors(r.graph.lattice, pull);
         build_height_planes(r.graph, cost, {});
     }
     r.sources.push_back({NodeId{0}, dice.below(50), 0});

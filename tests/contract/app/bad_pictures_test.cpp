@@ -95,6 +95,13 @@ TEST_F(BadPictureTest, AllTransparentIsRefusedByName) {
     EXPECT_EQ(folder_.names(), before);
 }
 
+TEST_F(BadPictureTest, EvenlyTranslucentIsDrawn) {
+    Picture picture = scene({96, 64});
+    for (Rgba8& p : picture) p.a = 90;
+    write_picture(folder_ / "veil.png", picture);
+    expect_drawn("veil.png", {96, 64});
+}
+
 TEST_F(BadPictureTest, TransparentPartsStayEmpty) {
     Picture picture = scene({96, 64});
     for (int y = 0; y < 64; ++y)

@@ -1,0 +1,146 @@
+// Growths, smoothed and given widths, and the choice among several.
+#include "pipeline/candidate.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "imaging/filters.h"
+#include "render/raster.h"
+
+namespace dstylize {
+
+std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite, const Branching& b,
+                                    const std::vector<float>& widths, const StrokeFrame& to) {
+    constexpr float kHiddenInParent = 0.9f;
+    std::vector<VariableStroke> out(lines.size());
+    for (std::size_t s = 0; s < lines.size(); ++s) {
+        const Branch& branch = b.branches[lines[s].branch];
+        VariableStroke& stroke = out[s];
+        stroke.order = branch.order;
+        stroke.stage = dendrite.stage[branch.nodes.back()];
+        for (const Vec2f p : lines[s].points_lattice) stroke.points_px.push_back(to.px(p));
+        const float first = widths[branch.nodes[0]],
+                    second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
+        const bool joins = branch.parent_branch != Branch::kNone;
+        const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
+        stroke.width_px.assign(lines[s].lead, at_joint * to.width_scale);
+        stroke.width_px.push_back(at_joint * to.width_scale);
+        for (std::size_t k = 1; k < branch.nodes.size(); ++k)
+            stroke.width_px.push_back(widths[branch.nodes[k]] * to.width_scale);
+    }
+    return out;
+}
+
+namespace {
+
+/// The seed of one of several growths; the first has the run's own.
+std::uint64_t growth_seed(std::uint64_t seed, int growth) { return seed + std::uint64_t(growth) * 0x9e3779b97f4a7c15u; }
+
+/// Share of every lattice cell that the strokes ink.
+Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
+    DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
+    Layer layer{"ink", Blend::max, {}};
+    for (VariableStroke& stroke : strokes_lattice) {
+        stroke.colour = {0, 0, 0, 1};
+        layer.items.push_back(std::move(stroke));
+    }
+    list.layers.push_back(std::move(layer));
+    const Picture black_on_white = raster(list, {lattice}, work);
+    Grid<float> out(lattice);
+    std::transform(black_on_white.begin(), black_on_white.end(), out.begin(),
+                   [](Rgba8 p) { return 1 - float(p.r) / 255; });
+    return out;
+}
+
+/// Draws, compares the ink with the wanted tone, corrects, as often as the style says.
+void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, const Dendrite& dendrite,
+              const Branching& b, float u, const Work& work) {
+    constexpr float kTargetWindow_u = 4, kDrawnWindow_u = 6;
+    const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
+    for (int pass = 0; pass < passes; ++pass) {
+        work.check();
+        const Grid<float> ink =
+            drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
+        widths.correct(target, blurred(ink, kDrawnWindow_u * u));
+    }
+}
+
+Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
+    Grid<float> out(fields.extent(), 0.0f);
+    for (const auto& [name, weight] : weights) {
+        const Grid<float>& field = fields[name];
+        for (std::size_t n = 0; n < out.size(); ++n) out[n] += weight * field[n];
+    }
+    return out;
+}
+
+Candidate candidate(PreparedPicture base, const Style& style, const Controls& controls, Extent picture_px,
+                    const Work& work) {
+    Candidate c{std::move(base), {}, {}, {}, {}, controls.seed};
+    Fields& fields = c.base.fields;
+    const float u = fields.u();
+    c.grown = grow(c.base, style, controls, picture_px, {}, work);
+    work.report("strokes", 0.75);
+    Dendrite& dendrite = c.grown.dendrite;
+    c.branching = branching(dendrite);
+    smooth(dendrite, c.branching, int(std::lround(style.stroke.smooth * u * u)));
+    warp(dendrite, fields.extent(), style.stroke, u, controls.seed);
+    c.lines = centrelines(dendrite, c.branching, int(style.stroke.junction * u));
+    Grid<float> width_sum, half_width;
+    if (style.width.field > 0) width_sum = weighted_sum(fields, style.width.fields);
+    if (style.width.room_share > 0) {
+        half_width = fields["room"];
+        transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
+    }
+    Widths widths(
+        dendrite, c.branching, style.width,
+        {fields["wanted"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
+         &c.grown.node_cost, half_width.empty() ? nullptr : &half_width, &fields["guided"]},
+        u);
+    if (style.width.tone > 0) fit_tone(widths, style.width.feedback, c.lines, dendrite, c.branching, u, work);
+    c.widths = widths.widths();
+    return c;
+}
+
+/// How well a growth shows the picture: the correlation of its ink with the wanted one, where the picture
+/// leads, thin lines (eyes, mouth) counting most.
+double resemblance(Candidate& c, float window) {
+    Fields& fields = c.base.fields;
+    const Grid<float>&leads = fields["guided"], &lines = fields["lines"], &features = fields["features"];
+    const Grid<float> wanted = blurred(fields["wanted"], window);
+    const Grid<float> ink = ink_coverage(c.grown.dendrite, c.widths, fields.extent(), window);
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    for (std::size_t k = 0; k < ink.size(); ++k) {
+        const double weight = double(leads[k]) * (0.1 + double(lines[k]) + double(features[k]));
+        const auto a = double(wanted[k]), b = double(ink[k]);
+        n += weight, x += weight * a, y += weight * b;
+        xx += weight * a * a, yy += weight * b * b, xy += weight * a * b;
+    }
+    const double spread = (n * xx - x * x) * (n * yy - y * y);
+    return spread > 0 ? (n * xy - x * y) / std::sqrt(spread) : 0;
+}
+
+}  // namespace
+
+Candidate best_candidate(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
+    const int growths = controls.endpoints.empty() ? style.choice.growths : 1;
+    PreparedPicture first = prepared_picture(picture, style, controls, work);
+    if (growths == 1) return candidate(std::move(first), style, controls, picture.extent(), work);
+    std::vector<std::optional<Candidate>> all(static_cast<std::size_t>(growths));
+    std::vector<double> score(all.size());
+    tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+        Controls own = controls;
+        own.seed = growth_seed(controls.seed, int(k));
+        Work quiet = work;
+        if (k > 0) quiet.progress = nullptr;
+        all[k] = candidate(k == 0 ? first : prepared_picture(picture, style, own, quiet, &first), style, own,
+                           picture.extent(), quiet);
+        score[k] = resemblance(*all[k], style.choice.window * all[k]->base.fields.u());
+    });
+    return std::move(*all[std::size_t(std::max_element(score.begin(), score.end()) - score.begin())]);
+}
+
+}  // namespace dstylize
