@@ -192,8 +192,8 @@ class SvgWriter {
 
     void locked_picture(std::string_view name, const DisplayList& list, std::span<const std::byte> png) {
         open_group(name, name, kLocked);
-        out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ",
-                            decimal(list.width_px), decimal(list.height_px));
+        out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ", decimal(list.width_px),
+                            decimal(list.height_px));
         out_ += "xlink:href=\"data:image/png;base64,";
         append_base64(out_, png);
         out_ += "\"/>\n</g>\n";

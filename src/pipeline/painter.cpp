@@ -39,9 +39,7 @@ Planes planes(const Picture& picture, float sigma) {
     return out;
 }
 
-float difference(Rgba a, Rgba b) {
-    return (std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b)) / 3;
-}
+float difference(Rgba a, Rgba b) { return (std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b)) / 3; }
 
 /// Unit vectors along the picture's structures: the smaller eigenvector of the smoothed structure tensor.
 Grid<Vec2f> structure(const Picture& picture, float sigma) {
@@ -136,7 +134,8 @@ class BrushLayer {
         }
         const std::size_t last = stroke.points_px.size() - 1;
         for (std::size_t k = 0; k <= last; ++k)
-            stroke.width_px.push_back(brush_px_ * (k == 0 ? 0.75f : 1 - 0.45f * float(k) / float(std::max<std::size_t>(last, 1))));
+            stroke.width_px.push_back(brush_px_ *
+                                      (k == 0 ? 0.75f : 1 - 0.45f * float(k) / float(std::max<std::size_t>(last, 1))));
         const VariableStroke body = stroke;
         items.emplace_back(std::move(stroke));
         if (brush_px_ >= kBristledFrom_px) add_bristles(items, body, random);
@@ -170,13 +169,6 @@ class BrushLayer {
     Noise noise_;
 };
 
-Rgba8 mean(const Picture& picture) {
-    std::uint64_t r = 0, g = 0, b = 0;
-    for (const Rgba8 p : picture) r += p.r, g += p.g, b += p.b;
-    const std::uint64_t n = picture.size();
-    return {std::uint8_t(r / n), std::uint8_t(g / n), std::uint8_t(b / n), 255};
-}
-
 Picture mix(const Picture& a, const Picture& b, float share) {
     Picture out(a.extent());
     const auto channel = [share](int from, int to) {
@@ -194,7 +186,7 @@ Picture brushed(const Picture& picture, float unit_px, float strength, std::uint
     const Grid<Vec2f> flow = structure(picture, 4 * unit_px);
     Picture opaque = picture;
     for (Rgba8& p : opaque) p.a = 255;
-    Picture canvas(picture.extent(), mean(opaque));
+    Picture canvas = opaque;  // shows between the first strokes
     int layer = 0;
     for (const float brush_u : kBrushes_u) {
         const float brush_px = std::max(kLeastBrush_px, brush_u * unit_px * (0.35f + 0.65f * strength));

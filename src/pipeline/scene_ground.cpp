@@ -26,8 +26,7 @@ class Silhouette {
         for (const Layer& layer : drawing.layers)
             if (!layer.of_ground) alone.layers.push_back(layer);
         px_per_list_ = scale;
-        const Grid<float> sharp =
-            alpha_plane(raster(alone, {{side(drawing.width_px), side(drawing.height_px)}}, work));
+        const Grid<float> sharp = alpha_plane(raster(alone, {{side(drawing.width_px), side(drawing.height_px)}}, work));
         const float u = float(kLongSide) / 1024;
         for (const float share : {0.15f, 0.5f, 1.0f, 2.0f})
             levels_.push_back(blurred(sharp, std::max(0.3f, soft_u * u * share)));
@@ -83,7 +82,8 @@ struct Range {
     Rgba shadow, light;
 };
 Range range(const Picture& ground, Vec2f corner, Vec2f size) {
-    const auto x0 = std::clamp(int(corner.x), 0, ground.extent().x - 1), y0 = std::clamp(int(corner.y), 0, ground.extent().y - 1);
+    const auto x0 = std::clamp(int(corner.x), 0, ground.extent().x - 1),
+               y0 = std::clamp(int(corner.y), 0, ground.extent().y - 1);
     const auto x1 = std::clamp(int(corner.x + size.x), x0 + 1, ground.extent().x);
     const auto y1 = std::clamp(int(corner.y + size.y), y0 + 1, ground.extent().y);
     std::vector<std::pair<int, Rgba8>> by_luma;
@@ -116,7 +116,8 @@ void raise_blades(std::vector<float>& heights, float x_px, float width_px, float
         const float tall = blades * width_px * (0.10f + 0.38f * unit(1)) * std::exp(-3 * t * t);
         const float half = width_px * (0.035f + 0.05f * unit(2));
         const float middle = x_px + t * kReach * width_px, lean = (unit(3) - 0.5f) * 1.4f * half;
-        const int first = std::max(0, int(middle - half)), last = std::min(int(heights.size()) - 1, int(middle + half) + 1);
+        const int first = std::max(0, int(middle - half)),
+                  last = std::min(int(heights.size()) - 1, int(middle + half) + 1);
         for (int x = first; x <= last; ++x) {
             const float off = float(x) + 0.5f - middle;
             const float side = off < lean ? (off + half) / (lean + half) : (half - off) / (half - lean);

@@ -112,7 +112,8 @@ void SceneParameters::visit(ParameterVisitor& v) {
              -4, 4);
     v.number({"shadow_y", "", "how far it falls towards the viewer; negative: away"}, shadow_y, -1, 1);
     v.number({"shadow_soft", "u", "blur of the shadow of what is far from the ground"}, shadow_soft, 0, 100);
-    v.number({"foreground", "", "how high the ground's blades rise before the feet; 0: a level edge"}, foreground, 0, 4);
+    v.number({"foreground", "", "how high the ground's blades rise before the feet; 0: a level edge"}, foreground, 0,
+             4);
 }
 
 void Style::visit(ParameterVisitor& v) {

@@ -129,8 +129,7 @@ class TilePainter {
                     const float lit = std::clamp(ground * light, 0.0f, 1.0f);
                     return over_ground(colour, ink.a, lit, paper.a) + rest * lit;
                 };
-                row[x] =
-                    straight({laid(ink.r, paper.r), laid(ink.g, paper.g), laid(ink.b, paper.b), ink.a + rest});
+                row[x] = straight({laid(ink.r, paper.r), laid(ink.g, paper.g), laid(ink.b, paper.b), ink.a + rest});
             }
         }
     }
@@ -182,7 +181,8 @@ void lay_cover(Picture& out, const Picture& cover) {
         const auto over = [&](std::uint8_t c, std::uint8_t below) {
             return (a * float(c) + rest * float(below)) / 255;
         };
-        out[n] = straight({over(above[n].r, out[n].r), over(above[n].g, out[n].g), over(above[n].b, out[n].b), a + rest});
+        out[n] =
+            straight({over(above[n].r, out[n].r), over(above[n].g, out[n].g), over(above[n].b, out[n].b), a + rest});
     }
 }
 
