@@ -141,7 +141,7 @@ void Parser::add_hand_options() {
     const bool words = form_ == Form::write;
     add(app_.add_option("--place", a.place,
                         words ? "the words' middle x,y, or as without words" : "stand there in the background"),
-        kHand)
+        kHand, words)
         ->type_name(words ? "X,Y[,W,H]" : "X,Y,W,H");
     add(app_.add_option("--blend", a.blend, "over (default), multiply, screen or soft-light"), kHand, false)
         ->type_name("MODE");
