@@ -5,8 +5,8 @@ _dstylize() {
     local output='--size --scale -o --output --format --quality --compression --recipe --no-recipe -f --force
         --dry-run -q --quiet -v --verbose --json --threads --max-memory --allow-damaged -h --help'
     local draw='-s --style --set --detail --seed --root --mask --importance --importance-mode --endpoints
-        --background --show --help-all --version'
-    local draw_words='--font --text-size --place --align --letter-spacing --line-spacing'
+        --background --place --blend --show --help-all --version'
+    local draw_words='--font --text-size --align --letter-spacing --line-spacing'
     COMPREPLY=()
     if [[ $before == -s || $before == --style || ($verb == styles && $COMP_CWORD == 2) ]]; then
         styles=$("${COMP_WORDS[0]}" styles 2>/dev/null | cut -d ' ' -f 1)
@@ -18,6 +18,7 @@ _dstylize() {
     --font) words=$(fc-list : family 2>/dev/null | cut -d , -f 1) ;;
     --format) words='png jpg tif webp svg pdf json' ;;
     --root) words='bottom top centre darkest' ;;
+    --blend) words='over multiply screen soft-light' ;;
     --background) words='input none' ;;
     --show) words=$("${COMP_WORDS[0]}" styles --fields 2>/dev/null | grep -v '^--' | cut -d ' ' -f 1)' weights endpoints distance owners tree' ;;
     --set | --detail | --seed | --size | --scale | --quality | --compression | --text-size | --place | --letter-spacing | --line-spacing | --threads | --max-memory) return ;;

@@ -2,6 +2,7 @@
 // docs/dstylize.1 repeat this list by hand, and a contract test compares them.
 #include "app/options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -112,8 +113,6 @@ void Parser::add_text_options() {
     add(app_.add_option("--text-size", a.text_size, "font size, of the picture's height; default: fits"), kText)
         ->type_name("X")
         ->check(CLI::Range(0.01f, Writing::kMostSize).description(""));
-    add(app_.add_option("--place", a.text_place, "where the words' middle lies; default 0.5,0.5"), kText)
-        ->type_name("X,Y");
     add(app_.add_option("--align", a.align, "of several lines: left, centre or right"), kText)
         ->type_name("SIDE")
         ->check(CLI::IsMember({"left", "centre", "right"}).description(""));
@@ -139,6 +138,13 @@ void Parser::add_hand_options() {
     add(app_.add_option("--endpoints", a.endpoints, "paths must arrive here: lines of x,y[,STAGE]"), kHand, false)
         ->type_name("FILE");
     add(app_.add_option("--background", a.background, "input, none, #rrggbb or a picture"), kHand)->type_name("WHAT");
+    const bool words = form_ == Form::write;
+    add(app_.add_option("--place", a.place,
+                        words ? "the words' middle x,y, or as without words" : "stand there in the background"),
+        kHand, words)
+        ->type_name(words ? "X,Y[,W,H]" : "X,Y,W,H");
+    add(app_.add_option("--blend", a.blend, "over (default), multiply, screen or soft-light"), kHand, false)
+        ->type_name("MODE");
     add(app_.add_option("--show", a.show, "write importance, weights, tree, … instead"), kHand)->type_name("STAGE");
 }
 
@@ -259,6 +265,7 @@ RunRequest picture_request(const Arguments& a) {
             throw usage_error("--set " + setting, "not a parameter and its value", "write section.key=value");
         request.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
     }
+    if (!a.blend.empty()) request.settings.push_back({"scene.blend", a.blend});
     request.detail = a.detail;
     request.seed = std::uint64_t(a.seed);
     request.no_picture = a.importance == "none";
@@ -273,6 +280,9 @@ RunRequest picture_request(const Arguments& a) {
     request.show = a.show;
     return request;
 }
+
+/// In `write` two numbers are where the words' middle lies, four a box in the background.
+bool is_box(const std::string& place) { return std::count(place.begin(), place.end(), ',') > 1; }
 
 /// Shells pass \\n as two characters.
 std::string with_line_breaks(std::string text) {
@@ -291,10 +301,10 @@ Writing writing(const Arguments& a) {
     out.lettering.letter_spacing = a.letter_spacing;
     out.lettering.line_spacing = a.line_spacing;
     out.size = a.text_size;
-    if (a.text_place.empty()) return out;
-    const RootChoice place = parsed_root(a.text_place);
+    if (a.place.empty() || is_box(a.place)) return out;
+    const RootChoice place = parsed_root(a.place);
     if (place.place)
-        throw usage_error("--place " + a.text_place, "is not a point",
+        throw usage_error("--place " + a.place, "is not a point",
                           "write x,y: fractions with a decimal point, or pixels");
     out.x = place.x;
     out.y = place.y;
@@ -309,6 +319,7 @@ RunRequest draw_request(const Arguments& a) {
         throw usage_error(a.names[2], "is one name too many", "write dstylize IN OUT; further outputs with -o");
     RunRequest request = picture_request(a);
     request.input = a.names[0];
+    if (!a.place.empty()) request.place = parsed_place(a.place);
     if (a.names.size() > 1) request.outputs.insert(request.outputs.begin(), a.names[1]);
     return request;
 }
@@ -323,6 +334,7 @@ RunRequest write_request(const Arguments& a) {
     if (files + a.outputs.size() == 0) throw usage_error("write", "no output is named", form);
     RunRequest request = picture_request(a);
     if (words) request.writing = writing(a);
+    if (is_box(a.place) || (!a.place.empty() && !words)) request.place = parsed_place(a.place);
     if (files > 0) request.outputs.insert(request.outputs.begin(), a.names.back());
     if (files > 1) request.input = a.names[words];
     const bool on_picture = files > 1;

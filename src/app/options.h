@@ -13,7 +13,7 @@ namespace dstylize::app {
 struct Arguments {
     std::vector<std::string> names;  ///< IN and OUT, or OLD, IN and OUT
     std::vector<std::string> outputs, settings, roots;
-    std::string style, importance, importance_mode, mask, endpoints, background, show;
+    std::string style, importance, importance_mode, mask, endpoints, background, place, blend, show;
     std::string size, format, recipe_file;
     double scale = 0;
     int detail = 0, threads = 0, quality = 92, compression = 1;
@@ -24,7 +24,7 @@ struct Arguments {
     bool help = false, help_all = false, version = false;
     bool fields = false, copy = false;  ///< of `styles`
     // Of `write`.
-    std::string font, align, text_place;
+    std::string font, align;
     float letter_spacing = 0.04f, line_spacing = 1, text_size = 0;
 };
 

@@ -80,6 +80,7 @@ struct Layer {
     std::vector<Item> items;
     std::optional<Glow> glow = std::nullopt;      ///< set: the items are not paint but light; their colours say nothing
     std::optional<Relief> relief = std::nullopt;  ///< set: the strokes are a body
+    bool of_ground = false;  ///< what grows on the ground, not on the subject: in a scene it has the scene's colours
 };
 
 /// The ground the drawing stands on.
@@ -91,11 +92,18 @@ struct Paper {
     std::shared_ptr<const Picture> picture = nullptr;
 };
 
+/// How paint meets what lies below it, as the W3C's Compositing and Blending Level 1 defines it.
+enum class Mixing { over, multiply, screen, soft_light };
+
 /// A finished drawing as vectors in the picture frame; raster, SVG and PDF all draw this one list.
 struct DisplayList {
     float width_px = 0, height_px = 0;
     Paper paper;
     std::vector<Layer> layers;
+    /// Of all layers that follow each other, as one group; those of light or in relief have ways of their own.
+    Mixing mixing = Mixing::over;
+    /// Over everything, stretched over the frame: what stands before the drawing. Null: nothing.
+    std::shared_ptr<const Picture> cover = nullptr;
 };
 
 }  // namespace dstylize

@@ -16,7 +16,9 @@ enum class Purpose : std::uint32_t {
     warp,
     ragged_outline,
     relief,
-    bark
+    bark,
+    brush,
+    foreground
 };
 
 /// Counter-based noise (Philox 4x32-10, Salmon et al. 2011): a value depends on (seed, purpose,

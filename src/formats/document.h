@@ -18,6 +18,7 @@ struct DocumentInfo {
     std::vector<std::pair<std::string, std::string>> text;
     /// The list's paper picture as a PNG file, which SVG embeds; without it SVG has no paper picture.
     std::vector<std::byte> paper_png;
+    std::vector<std::byte> cover_png;  ///< the list's cover, likewise
 };
 
 /// An SVG 1.1 document: viewBox in picture pixels, coordinates to 1/100 of one. The paper is a locked
@@ -30,6 +31,9 @@ struct DocumentInfo {
 ///
 /// A glowing layer is painted in its items' colours and screened over what lies below (SVG:
 /// `mix-blend-mode: screen`); blurs are not vectors: pipeline/lit_ground.h puts halos into the paper picture.
+///
+/// Where the list mixes with its ground, the layers between two glowing ones are a group with that
+/// `mix-blend-mode`. The cover is a last, locked layer.
 ///
 /// Metadata: title, `author` and `copyright` as Dublin Core, and every text as
 /// `<d:text key="KEY">...</d:text>` in the namespace urn:dstylize.

@@ -76,6 +76,37 @@ void paint_layer(cairo_t* context, const ShapeLayer& layer) {
     cairo_set_operator(context, CAIRO_OPERATOR_OVER);
 }
 
+cairo_operator_t cairo_operator(Mixing mixing) {
+    switch (mixing) {
+        case Mixing::over: return CAIRO_OPERATOR_OVER;
+        case Mixing::multiply: return CAIRO_OPERATOR_MULTIPLY;
+        case Mixing::screen: return CAIRO_OPERATOR_SCREEN;
+        case Mixing::soft_light: return CAIRO_OPERATOR_SOFT_LIGHT;
+    }
+    return CAIRO_OPERATOR_OVER;
+}
+
+/// All layers; those between two glowing ones are one group where the list mixes with its ground.
+void paint_layers(cairo_t* context, const DisplayList& list, float tolerance) {
+    bool in_group = false;
+    const auto set_group = [&](bool wanted) {
+        if (wanted && !in_group) cairo_push_group(context);
+        if (!wanted && in_group) {
+            cairo_pop_group_to_source(context);
+            cairo_set_operator(context, cairo_operator(list.mixing));
+            cairo_paint(context);
+            cairo_set_operator(context, CAIRO_OPERATOR_OVER);
+        }
+        in_group = wanted;
+    };
+    for (const Layer& layer : list.layers) {
+        const ShapeLayer shapes = shape_layer(layer, tolerance);
+        set_group(list.mixing != Mixing::over && !shapes.light);
+        paint_layer(context, shapes);
+    }
+    set_group(false);
+}
+
 /// The picture, stretched over the page.
 void paint_picture(cairo_t* context, const Picture& picture, double width, double height) {
     const Extent extent = picture.extent();
@@ -120,7 +151,8 @@ std::string pdf_document(const DisplayList& list, const DocumentInfo& info) {
         cairo_paint(context.get());
     }
     const float tolerance = shape_tolerance_px(list);
-    for (const Layer& layer : list.layers) paint_layer(context.get(), shape_layer(layer, tolerance));
+    paint_layers(context.get(), list, tolerance);
+    if (list.cover) paint_picture(context.get(), *list.cover, list.width_px, list.height_px);
     check(cairo_status(context.get()));
     cairo_surface_finish(surface.get());
     check(cairo_surface_status(surface.get()));

@@ -49,6 +49,16 @@ void append_base64(std::string& out, std::span<const std::byte> bytes) {
     }
 }
 
+std::string_view css_name(Mixing mixing) {
+    switch (mixing) {
+        case Mixing::over: return "normal";
+        case Mixing::multiply: return "multiply";
+        case Mixing::screen: return "screen";
+        case Mixing::soft_light: return "soft-light";
+    }
+    return "normal";
+}
+
 /// Path data in relative coordinates. Differences are taken between rounded positions, so that
 /// rounding errors do not add up along a path.
 class PathWriter {
@@ -118,7 +128,20 @@ class SvgWriter {
         metadata(info);
         paper(list, info);
         const float tolerance = shape_tolerance_px(list);
-        for (const Layer& l : list.layers) layer(shape_layer(l, tolerance));
+        bool in_group = false;
+        const auto set_group = [&](bool wanted) {
+            if (wanted && !in_group)
+                open_group("drawing", "drawing", fmt::format(" style=\"mix-blend-mode:{}\"", css_name(list.mixing)));
+            if (!wanted && in_group) out_ += "</g>\n";
+            in_group = wanted;
+        };
+        for (const Layer& l : list.layers) {
+            const ShapeLayer shapes = shape_layer(l, tolerance);
+            set_group(list.mixing != Mixing::over && !shapes.light);
+            layer(shapes);
+        }
+        set_group(false);
+        if (!info.cover_png.empty()) locked_picture("foreground", list, info.cover_png);
         out_ += "</svg>\n";
         return std::move(out_);
     }
@@ -158,17 +181,22 @@ class SvgWriter {
 
     void paper(const DisplayList& list, const DocumentInfo& info) {
         if (list.paper.picture ? info.paper_png.empty() : list.paper.colour.a <= 0) return;
-        open_group("paper", "paper", " sodipodi:insensitive=\"true\"");
         if (list.paper.picture) {
-            out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ",
-                                decimal(list.width_px), decimal(list.height_px));
-            out_ += "xlink:href=\"data:image/png;base64,";
-            append_base64(out_, info.paper_png);
-            out_ += "\"/>\n</g>\n";
+            locked_picture("paper", list, info.paper_png);
             return;
         }
+        open_group("paper", "paper", kLocked);
         out_ += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n</g>\n", decimal(list.width_px),
                             decimal(list.height_px), paint(list.paper.colour));
+    }
+
+    void locked_picture(std::string_view name, const DisplayList& list, std::span<const std::byte> png) {
+        open_group(name, name, kLocked);
+        out_ += fmt::format("<image width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" ", decimal(list.width_px),
+                            decimal(list.height_px));
+        out_ += "xlink:href=\"data:image/png;base64,";
+        append_base64(out_, png);
+        out_ += "\"/>\n</g>\n";
     }
 
     void layer(const ShapeLayer& layer) {
@@ -219,6 +247,8 @@ class SvgWriter {
         for (int n = 2; !ids_.insert(unique).second; ++n) unique = fmt::format("{}-{}", id, n);
         return unique;
     }
+
+    static constexpr std::string_view kLocked = " sodipodi:insensitive=\"true\"";
 
     std::string out_;
     std::set<std::string> ids_;

@@ -31,6 +31,7 @@ class Tree final : public Metaphor {
     /// Blades in front of every foot: dense in its middle, none where it does not stand.
     Layer grass(const Subject& subject) const {
         Layer layer{"grass", Blend::over, {}};
+        layer.of_ground = true;
         const Noise noise(subject.seed, Purpose::leaves);
         const float u = subject.u_px;
         std::uint64_t draw = 0;

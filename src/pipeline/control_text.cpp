@@ -31,12 +31,6 @@ std::optional<Coordinate> parsed_coordinate(std::string_view text) {
     return out;
 }
 
-std::string coordinate_text(Coordinate c) {
-    std::string text = fmt::format("{}", c.value);
-    if (c.is_fraction && text.find('.') == std::string::npos) text += ".0";
-    return text;
-}
-
 bool inside(Coordinate c, int side_px) {
     return c.value >= 0 && (c.is_fraction ? c.value <= 1 : c.value <= side_px - 1);
 }
@@ -66,6 +60,23 @@ RootChoice parsed_root(std::string_view text) {
 std::string root_text(const RootChoice& root) {
     if (root.place) return std::string(kPlaces[std::size_t(*root.place)]);
     return coordinate_text(root.x) + "," + coordinate_text(root.y);
+}
+
+std::string coordinate_text(Coordinate c) {
+    std::string text = fmt::format("{}", c.value);
+    if (c.is_fraction && text.find('.') == std::string::npos) text += ".0";
+    return text;
+}
+
+std::vector<Coordinate> parsed_coordinates(std::string_view text) {
+    std::vector<Coordinate> out;
+    const auto parts = 1 + std::count(text.begin(), text.end(), ',');
+    for (std::ptrdiff_t i = 0; i < parts; ++i) {
+        const auto part = parsed_coordinate(take_part(text));
+        if (!part) return {};
+        out.push_back(*part);
+    }
+    return out;
 }
 
 std::vector<EndpointRow> endpoint_rows(std::string_view text, const std::string& name) {

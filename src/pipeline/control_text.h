@@ -15,6 +15,11 @@ RootChoice parsed_root(std::string_view text);
 /// The text that gives this root again.
 std::string root_text(const RootChoice& root);
 
+/// Numbers with commas between them, each as in a root; empty when one is none.
+std::vector<Coordinate> parsed_coordinates(std::string_view text);
+/// The text that gives this coordinate again.
+std::string coordinate_text(Coordinate coordinate);
+
 /// The rows of an endpoints file: "x,y" or "x,y,STAGE" a line, coordinates as for roots. Empty lines,
 /// lines that begin with # and one heading line "x,y..." are skipped. `name` is the file's name for messages.
 /// Throws Error(cannot_read) with the line for anything else, and when there is no row.

@@ -86,7 +86,8 @@ std::vector<std::byte> Delivery::document_file(const OutputFormat& format, const
     DocumentInfo info;
     info.title = options_.title;
     info.text = options_.metadata.text;
-    set_page(info, options_.frame, drawing_.picture);
+    const Extent frame{int(drawing_.list.width_px), int(drawing_.list.height_px)};
+    set_page(info, options_.frame, frame);
     if (format.holds == Holds::skeleton) {
         return bytes_of(skeleton_json(
             {drawing_.dendrite, drawing_.lattice, drawing_.picture, drawing_.stage_names, drawing_.width_u}, info));
@@ -94,6 +95,7 @@ std::vector<std::byte> Delivery::document_file(const OutputFormat& format, const
     const DisplayList list = with_lit_ground(drawing_.list, kMostGroundPixels, work);
     if (format.id == FormatId::pdf) return bytes_of(pdf_document(list, info));
     if (list.paper.picture) info.paper_png = codec_.encode(*list.paper.picture, {}, name);
+    if (list.cover) info.cover_png = codec_.encode(*list.cover, {}, name);
     return bytes_of(svg_document(list, info));
 }
 

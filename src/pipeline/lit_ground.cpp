@@ -43,7 +43,7 @@ DisplayList with_lit_ground(const DisplayList& list, int most_px, const Work& wo
     if (last == list.layers.rend()) return list;
     const auto above = last.base();
 
-    DisplayList ground{list.width_px, list.height_px, list.paper, {list.layers.begin(), above}};
+    DisplayList ground{list.width_px, list.height_px, list.paper, {list.layers.begin(), above}, list.mixing};
     for (Layer& layer : ground.layers)
         if (layer.glow) layer.glow->core_gain = 0;
     const float scale = std::min(1.0f, float(most_px) / std::max(list.width_px, list.height_px));
@@ -51,7 +51,7 @@ DisplayList with_lit_ground(const DisplayList& list, int most_px, const Work& wo
     const Extent size{side(list.width_px), side(list.height_px)};
     if (ground.paper.picture) ground.paper.picture = std::make_shared<Picture>(resized(*ground.paper.picture, size));
 
-    DisplayList out{list.width_px, list.height_px, list.paper, {}};
+    DisplayList out{list.width_px, list.height_px, list.paper, {}, list.mixing, list.cover};
     out.paper.grain = 0;
     out.paper.picture = std::make_shared<Picture>(raster(ground, {size}, work));
     for (auto layer = list.layers.begin(); layer != above; ++layer)

@@ -142,6 +142,7 @@ std::string recipe_toml(const Recipe& recipe) {
     add_mark("endpoints", recipe.endpoints);
     add_mark("background_file", recipe.background_file);
     add_text("background", recipe.background);
+    add_text("place", recipe.place);
     add_text("size", recipe.size);
     if (!recipe.roots.empty()) {
         toml::array roots;
@@ -178,6 +179,7 @@ Recipe parse_recipe(std::string_view text, const std::string& origin) {
     out.endpoints = reader.mark("endpoints");
     out.background_file = reader.mark("background_file");
     out.background = reader.text("background");
+    out.place = reader.text("place");
     out.size = reader.text("size");
     if (const toml::node* words = table->get("writing")) out.writing = parsed_writing(*words, reader);
     out.roots = reader.texts("roots");

@@ -27,6 +27,7 @@ struct Recipe {
     bool no_picture = false;
     std::vector<std::string> roots;  ///< as --root takes them
     std::string background;          ///< as --background takes it; empty: the style's paper, or background_file
+    std::string place;               ///< as --place takes it; empty: the drawing's frame is the output's
     std::optional<Writing> writing;  ///< words that were the mask
     std::string size;                ///< as --size takes it; empty: the input's
     std::string style_toml;          ///< the whole style

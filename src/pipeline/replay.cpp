@@ -58,6 +58,7 @@ Replay replay_of(const fs::path& old, const fs::path& input, PictureCodec& codec
     } else if (!recipe.background.empty()) {
         request.background = parsed_background(recipe.background);
     }
+    if (!recipe.place.empty()) request.place = parsed_place(recipe.place);
     if (!recipe.size.empty()) request.size = parsed_output_size(recipe.size);
     request.max_memory_bytes = max_memory_bytes;
     return out;

@@ -14,6 +14,7 @@
 #include "pipeline/deliver.h"
 #include "pipeline/outputs.h"
 #include "pipeline/recipe.h"
+#include "pipeline/scene.h"
 #include "pipeline/stylize.h"
 #include "pipeline/version.h"
 
@@ -47,6 +48,7 @@ class Run {
         : request_(request), codec_(codec), work_(work) {}
 
     RunReport report() {
+        check_place();
         load_style();
         plan_outputs();
         work_.report("reading", 0);
@@ -61,6 +63,13 @@ class Run {
     }
 
   private:
+    void check_place() const {
+        const Background::Kind kind = request_.background.kind;
+        if (request_.place && kind != Background::Kind::file && kind != Background::Kind::input)
+            throw Error(ErrorCode::bad_usage, "", "--place: there is no picture to put the drawing in",
+                        "give --background FILE");
+    }
+
     void load_style() {
         std::vector<Setting> settings = request_.settings;
         if (request_.detail > 0) settings.push_back({"lattice.detail", std::to_string(request_.detail)});
@@ -119,7 +128,6 @@ class Run {
         if (request_.writing) controls_.mask = letter_mask(*request_.writing, input_.picture.extent());
         lattice_ =
             lattice_scale(input_.picture.extent(), style_.lattice, controls_.mask ? &*controls_.mask : nullptr).extent;
-        frame_ = output_frame(request_.size, input_.picture.extent());
         controls_.seed = request_.seed;
         controls_.roots = request_.roots;
         controls_.importance_replaces = request_.importance_replaces;
@@ -129,6 +137,8 @@ class Run {
         if (request_.background.kind == Background::Kind::file)
             ground_ = picture({request_.background.file, request_.background_xxh128}, recipe_.background_file);
         if (request_.background.kind == Background::Kind::input) ground_ = input_.picture;
+        if (request_.place) box_ = placed_box(*request_.place, ground_.extent());
+        frame_ = output_frame(request_.size, request_.place ? ground_.extent() : input_.picture.extent());
     }
 
     /// The size of the paper where there is no input picture.
@@ -188,6 +198,7 @@ class Run {
             case Background::Kind::style:
             case Background::Kind::file: break;
         }
+        if (request_.place) recipe_.place = place_text(*request_.place);
         recipe_.writing = request_.writing;
         recipe_.size = output_size_text(request_.size);
         recipe_.style_toml = style_toml(style_);
@@ -258,7 +269,11 @@ class Run {
         report_.strokes = drawing.strokes;
         for (std::size_t s = 0; s < drawing.endpoints.size(); ++s)
             report_.endpoints.emplace_back(drawing.stage_names[s], drawing.endpoints[s]);
-        lay_ground(drawing.list.paper);
+        if (request_.place)
+            drawing.list = in_scene(drawing, ground_, box_, style_.scene, request_.seed, part(work_, 0.85, 0.85));
+        else
+            lay_ground(drawing.list.paper);
+        drawing.list.mixing = style_.scene.blend;
         const DeliveryOptions options = delivery_options();
         input_.picture = {};
         Delivery delivery(std::move(drawing), options, codec_);
@@ -319,6 +334,7 @@ class Run {
     Extent lattice_;
     Controls controls_;
     Picture ground_;
+    Box box_;
     Recipe recipe_;
     RunReport report_;
 };

@@ -10,6 +10,7 @@
 #include "pipeline/background.h"
 #include "pipeline/controls.h"
 #include "pipeline/output_size.h"
+#include "pipeline/place.h"
 #include "pipeline/style_file.h"
 #include "pipeline/writing.h"
 
@@ -41,6 +42,7 @@ struct RunRequest {
     std::vector<RootChoice> roots;
     Background background;
     std::string background_xxh128;  ///< as in AuxiliaryFile, of background.file
+    std::optional<Place> place;     ///< the output's frame is the background's, and the drawing stands here in it
 
     OutputSize size;
     std::string show;  ///< an intermediate to write in the drawing's place; empty: the drawing

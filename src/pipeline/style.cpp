@@ -99,6 +99,23 @@ void ChoiceParameters::visit(ParameterVisitor& v) {
     v.number({"window", "u", "how finely they are compared with the picture"}, window, 0.5f, 100);
 }
 
+void SceneParameters::visit(ParameterVisitor& v) {
+    static constexpr std::array<std::string_view, 4> kBlends{"over", "multiply", "screen", "soft-light"};
+    choice(v, {"blend", "", "how the drawing's paint meets what it stands on, on any ground"}, blend, kBlends);
+    v.number({"painted", "", "with --place: how coarsely the background is repainted with brushes; 0: not at all"},
+             painted, 0, 1);
+    v.number({"match", "", "how far the drawing's colours move into the background's shadows and lights"}, match, 0, 1);
+    v.flag({"stands", "", "its lowest root is on the place's bottom edge, and hidden by the ground before it"}, stands);
+    v.number({"contact", "", "how dark the ground is at the feet"}, contact, 0, 1);
+    v.number({"shadow", "", "how dark the shadow on the ground is"}, shadow, 0, 1);
+    v.number({"shadow_x", "", "how far it falls to the right, per height of what casts it; negative: left"}, shadow_x,
+             -4, 4);
+    v.number({"shadow_y", "", "how far it falls towards the viewer; negative: away"}, shadow_y, -1, 1);
+    v.number({"shadow_soft", "u", "blur of the shadow of what is far from the ground"}, shadow_soft, 0, 100);
+    v.number({"foreground", "", "how high the ground's blades rise before the feet; 0: a level edge"}, foreground, 0,
+             4);
+}
+
 void Style::visit(ParameterVisitor& v) {
     v.section("lattice", "what the dendrite grows on", [this](ParameterVisitor& inner) { lattice.visit(inner); });
     v.section("fields", "what is read off the picture", [this](ParameterVisitor& inner) { fields.visit(inner); });
@@ -111,6 +128,8 @@ void Style::visit(ParameterVisitor& v) {
     v.section("stroke", "branches to smooth centrelines", [this](ParameterVisitor& inner) { stroke.visit(inner); });
     v.section("width", "how wide strokes are", [this](ParameterVisitor& inner) { width.visit(inner); });
     v.section("choice", "the best of several drawings", [this](ParameterVisitor& inner) { choice.visit(inner); });
+    v.section("scene", "how it joins a picture that it is put in",
+              [this](ParameterVisitor& inner) { scene.visit(inner); });
     v.section(metaphor_name, "how strokes are dressed", [this](ParameterVisitor& inner) { metaphor->visit(inner); });
 }
 

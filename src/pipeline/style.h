@@ -90,6 +90,22 @@ struct ChoiceParameters {
     void visit(ParameterVisitor& visitor);
 };
 
+/// How a drawing joins the picture it is put in: the [scene] table. `blend` counts on any ground, the rest for
+/// a drawing with a Place only. (Long & Mould 2009, s. 5.4, compose by hand.)
+struct SceneParameters {
+    Mixing blend = Mixing::over;
+    float painted = 0.5f;
+    float match = 0.5f;
+    bool stands = false;
+    float contact = 0.6f;
+    float shadow = 0.5f;
+    float shadow_x = 0.6f, shadow_y = 0.14f;
+    float shadow_soft = 5;
+    float foreground = 1;
+
+    void visit(ParameterVisitor& visitor);
+};
+
 /// A style with every parameter in place: what a file in filters/ says, nothing left to default later.
 struct Style {
     std::string name;
@@ -101,6 +117,7 @@ struct Style {
     StrokeParameters stroke;
     WidthParameters width;
     ChoiceParameters choice;
+    SceneParameters scene;
     std::string metaphor_name;
     std::unique_ptr<Metaphor> metaphor;
 

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <cassert>
 
+#include "imaging/filters.h"
 #include "render/detail_capsule.h"
 #include "render/detail_glow.h"
 #include "render/detail_grain.h"
+#include "render/detail_mixing.h"
 #include "render/detail_polygon.h"
 #include "render/detail_prepare.h"
 #include "render/detail_relief.h"
@@ -34,8 +36,8 @@ Rgba8 straight(Premultiplied c) {
 /// One thread's working memory and the painting of a tile in it.
 class TilePainter {
   public:
-    TilePainter(const Paper& paper, std::span<const Layer> layers, const Prepared& drawing, Picture& out)
-        : paper_(paper), layers_(layers), drawing_(drawing), out_(out), grain_(paper.seed) {}
+    TilePainter(const Paper& paper, std::span<const Layer> layers, Mixing mixing, const Prepared& drawing, Picture& out)
+        : paper_(paper), layers_(layers), mixing_(mixing), drawing_(drawing), out_(out), grain_(paper.seed) {}
 
     void paint(int tile_x, int tile_y) {
         const int side = drawing_.tile_px, k = drawing_.samples_per_pixel;
@@ -123,15 +125,24 @@ class TilePainter {
                 const Premultiplied ink = mean_ink(x, y);
                 const Rgba paper = ground(x0_ + x, y0_ + y);
                 const float rest = (1 - ink.a) * paper.a;
-                auto under = [&](float v) { return rest * std::clamp(v * light, 0.0f, 1.0f); };
-                row[x] =
-                    straight({ink.r + under(paper.r), ink.g + under(paper.g), ink.b + under(paper.b), ink.a + rest});
+                const auto laid = [&](float colour, float ground) {
+                    const float lit = std::clamp(ground * light, 0.0f, 1.0f);
+                    return over_ground(colour, ink.a, lit, paper.a) + rest * lit;
+                };
+                row[x] = straight({laid(ink.r, paper.r), laid(ink.g, paper.g), laid(ink.b, paper.b), ink.a + rest});
             }
         }
     }
 
+    /// A premultiplied channel of ink as it shows on the ground.
+    float over_ground(float ink, float ink_alpha, float ground, float ground_alpha) const {
+        if (mixing_ == Mixing::over || ink_alpha <= 0) return ink;
+        return (1 - ground_alpha) * ink + ground_alpha * ink_alpha * mixed(mixing_, ground, ink / ink_alpha);
+    }
+
     const Paper& paper_;
     std::span<const Layer> layers_;
+    Mixing mixing_;
     const Prepared& drawing_;
     Picture& out_;
     Grain grain_;
@@ -146,7 +157,8 @@ Picture painted(const DisplayList& list, const Paper& paper, std::span<const Lay
                 const Work& work) {
     Picture out(size_px);
     const Prepared drawing = prepared(list, layers, size_px, work);
-    tbb::enumerable_thread_specific<TilePainter> painters([&] { return TilePainter(paper, layers, drawing, out); });
+    tbb::enumerable_thread_specific<TilePainter> painters(
+        [&] { return TilePainter(paper, layers, list.mixing, drawing, out); });
     tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
         work.check();
         painters.local().paint(int(tile) % drawing.tiles.x, int(tile) / drawing.tiles.x);
@@ -159,6 +171,19 @@ std::size_t next_effect(std::span<const Layer> layers) {
     std::size_t l = 0;
     while (l < layers.size() && !layers[l].glow && !layers[l].relief) ++l;
     return l;
+}
+
+void lay_cover(Picture& out, const Picture& cover) {
+    const Picture above = resized(cover, out.extent());
+    for (std::size_t n = 0; n < out.size(); ++n) {
+        const float a = float(above[n].a) / 255, rest = (1 - a) * float(out[n].a) / 255;
+        if (a <= 0) continue;
+        const auto over = [&](std::uint8_t c, std::uint8_t below) {
+            return (a * float(c) + rest * float(below)) / 255;
+        };
+        out[n] =
+            straight({over(above[n].r, out[n].r), over(above[n].g, out[n].g), over(above[n].b, out[n].b), a + rest});
+    }
 }
 
 Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
@@ -176,6 +201,7 @@ Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
         const Paper below{{}, 0, 0, std::make_shared<Picture>(std::move(out))};
         out = painted(list, below, rest.first(paint), size_px, work);
     }
+    if (list.cover) lay_cover(out, *list.cover);
     return out;
 }
 

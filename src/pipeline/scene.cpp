@@ -1,0 +1,95 @@
+#include "pipeline/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "imaging/filters.h"
+#include "pipeline/painter.h"
+#include "pipeline/scene_ground.h"
+#include "pipeline/stylize.h"
+
+namespace dstylize {
+namespace {
+
+constexpr int kMostGround_px = 4096, kMostPainted_px = 2048;
+
+Picture at_most(const Picture& picture, int long_side) {
+    const Extent e = picture.extent();
+    if (e.long_side() <= long_side) return picture;
+    const double k = double(long_side) / e.long_side();
+    const auto side = [k](int px) { return std::max(1, int(std::lround(px * k))); };
+    return resized(picture, {side(e.x), side(e.y)});
+}
+
+}  // namespace
+
+std::vector<Foot> feet(const Drawing& drawing) {
+    const float x = float(drawing.picture.x) / float(drawing.lattice.x);
+    const float y = float(drawing.picture.y) / float(drawing.lattice.y);
+    const float u_px = float(drawing.picture.long_side()) / 1024;
+    std::vector<Foot> out;
+    const Dendrite& d = drawing.dendrite;
+    for (std::uint32_t v = 0; v < d.size(); ++v)
+        if (d.is_root(v))
+            out.push_back({{d.position_lattice[v].x * x, d.position_lattice[v].y * y}, drawing.width_u[v] * u_px});
+    std::stable_sort(out.begin(), out.end(), [](const Foot& a, const Foot& b) { return a.at_px.y > b.at_px.y; });
+    return out;
+}
+
+Placement placement(const DisplayList& drawing, const std::vector<Foot>& feet, const Box& box, bool stands) {
+    const float bottom = stands && !feet.empty() ? feet[0].at_px.y : drawing.height_px;
+    const float scale = std::min(box.size_px.x / drawing.width_px, box.size_px.y / std::max(bottom, 1.0f));
+    return {scale,
+            {box.corner_px.x + (box.size_px.x - scale * drawing.width_px) / 2,
+             box.corner_px.y + box.size_px.y - scale * bottom}};
+}
+
+DisplayList moved(DisplayList list, const Placement& to, Extent frame_px) {
+    const float old_side = std::max(list.width_px, list.height_px);
+    const float shares = old_side * to.scale / float(frame_px.long_side());  // of the drawing's long side
+    list.width_px = float(frame_px.x);
+    list.height_px = float(frame_px.y);
+    for (Layer& layer : list.layers) {
+        for (Item& item : layer.items) {
+            if (auto* fill = std::get_if<Fill>(&item)) {
+                for (Vec2f& p : fill->outline_px) p = to.placed(p);
+                continue;
+            }
+            auto& stroke = std::get<VariableStroke>(item);
+            for (Vec2f& p : stroke.points_px) p = to.placed(p);
+            for (float& w : stroke.width_px) w *= to.scale;
+        }
+        if (layer.glow) {
+            for (Glow::Halo& halo : layer.glow->halos) halo.sigma *= shares;
+            layer.glow->cast_sigma *= shares;
+        }
+        if (Relief* r = layer.relief ? &*layer.relief : nullptr)
+            for (float* length : {&r->tip_length_px, &r->radius_px, &r->gap_sigma_px, &r->shadow_length_px,
+                                  &r->shadow_sigma_px, &r->contact_sigma_px, &r->drape_sigma_px})
+                *length *= to.scale;
+    }
+    return list;
+}
+
+DisplayList in_scene(const Drawing& drawing, const Picture& background, const Box& box,
+                     const SceneParameters& parameters, std::uint64_t seed, const Work& work) {
+    const std::vector<Foot> roots = parameters.stands ? feet(drawing) : std::vector<Foot>{};
+    const Placement to = placement(drawing.list, roots, box, parameters.stands);
+    Picture ground = at_most(background, parameters.painted > 0 ? kMostPainted_px : kMostGround_px);
+    const float px_per_list = float(ground.extent().long_side()) / float(background.extent().long_side());
+    work.report("painting the background", 0);
+    ground = brushed(ground, float(ground.extent().long_side()) / 1024, parameters.painted, seed, work);
+
+    DisplayList out = moved(drawing.list, to, background.extent());
+    match_colours(out, ground, px_per_list, box, parameters.match);
+    if (!roots.empty()) {
+        shade_ground(ground, px_per_list, drawing.list, roots, to, parameters, work);
+        out.cover = std::make_shared<Picture>(
+            foreground(ground, px_per_list, drawing.list, roots, to, parameters.foreground, seed));
+    }
+    out.paper = {};
+    out.paper.picture = std::make_shared<Picture>(std::move(ground));
+    return out;
+}
+
+}  // namespace dstylize

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "pipeline/scene.h"
+
+namespace dstylize {
+
+/// What a scene's ground is made of. `px_per_list` is the ground's pixels for each of the list's.
+
+/// Lays the shadow that the drawing casts, and the darkness around its feet. `drawing` is in its own frame.
+void shade_ground(Picture& ground, float px_per_list, const DisplayList& drawing, const std::vector<Foot>& feet,
+                  const Placement& placement, const SceneParameters& parameters, const Work& work);
+
+/// The ground's own pixels in front of the drawing: all below the lowest foot inside the drawing's frame, and
+/// blades of them before every foot. Elsewhere transparent.
+Picture foreground(const Picture& ground, float px_per_list, const DisplayList& drawing, const std::vector<Foot>& feet,
+                   const Placement& placement, float blades, std::uint64_t seed);
+
+/// Colours of the list between the shadows and the lights that the ground has around the box, by a share of
+/// `match`; layers that are of the ground get the ground's colours where they grow.
+void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box, float match);
+
+}  // namespace dstylize
