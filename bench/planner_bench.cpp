@@ -40,15 +40,14 @@ int scene(int i, int j) {
     return 1 + int(200 * edges) + int(hash(std::uint32_t(i), std::uint32_t(j), 1) % 50);
 }
 
-NodeWeight map_weight(const std::string& kind, int i, int j) {
+NodeWeight map_weight(const std::string& kind, int side, int i, int j) {
     if (kind == "noise") return NodeWeight(1 + hash(std::uint32_t(i), std::uint32_t(j), 2) % 255);
     if (kind == "constant") return 100;
-    if (kind == "maze") {  // corridors of 6 nodes: of each wall's gaps one is open
-        const bool wall_x = i % 8 > 5, wall_y = j % 8 > 5;
-        if (wall_x && wall_y) return kImpassable;
-        const bool open = hash(std::uint32_t(i / 8), std::uint32_t(j / 8), 3) % 2 == 0;
-        if ((wall_x && !open) || (wall_y && open)) return kImpassable;
-        return 20;
+    if (kind == "maze") {  // corridors 6 nodes wide: each cell is open to the right or downwards
+        const bool wall_x = i % 8 > 5, wall_y = j % 8 > 5, last_x = i / 8 >= side / 8 - 1,
+                   last_y = j / 8 >= side / 8 - 1;
+        const bool right = last_y || (!last_x && hash(std::uint32_t(i / 8), std::uint32_t(j / 8), 3) % 2 == 0);
+        return (wall_x && wall_y) || (wall_x && !right) || (wall_y && right) ? kImpassable : NodeWeight{20};
     }
     return NodeWeight(std::min(255, scene(i, j)));
 }
@@ -59,7 +58,7 @@ WeightedLattice map_of(const std::string& kind, int mega, Neighbourhood neighbou
     g.lattice = Lattice({side, side}, neighbourhood);
     g.weight.resize(g.lattice.node_count());
     for (std::uint32_t n = 0; n < g.weight.size(); ++n)
-        g.weight[n] = map_weight(kind, g.lattice.column(NodeId{n}), g.lattice.row(NodeId{n}));
+        g.weight[n] = map_weight(kind, side, g.lattice.column(NodeId{n}), g.lattice.row(NodeId{n}));
     g.weight[0] = 1;
     return g;
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 #include "graph/detail_tiles.h"
 #include "graph/plan.h"
@@ -75,20 +76,40 @@ HWY_INLINE Vec32 wide_at(const std::uint16_t* p) {
     return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint16_t, Tag32>(), p));
 }
 
-/// Heights of the edges that lead by step s to the nodes from v on; 0 where there is none.
-HWY_INLINE Vec32 heights_to(const WeightedLattice& g, std::ptrdiff_t v, std::size_t s) {
-    const Step step = g.lattice.steps()[s];
-    const std::ptrdiff_t width = g.lattice.extent().x, u = v - (step.dy * width + step.dx);
-    if (!g.height_plane.empty()) {
-        if (!g.symmetric) return wide_at(g.height_plane[s].data() + u);
-        return wide_at(g.height_plane[s / 2].data() + (s % 2 == 0 ? u : v));
+/// How a step arrives at the nodes of a row; nodes are counted from the one it arrives at.
+struct Arrival {
+    Arrival(const WeightedLattice& g, std::uint8_t s) : step(s), length5(g.lattice.steps()[s].length5) {
+        const Step by = g.lattice.steps()[s];
+        const std::ptrdiff_t width = g.lattice.extent().x;
+        from = -(by.dy * width + by.dx);
+        if (!g.height_plane.empty()) {
+            const bool at_target = g.symmetric && s % 2 == 1;
+            height = g.height_plane[g.symmetric ? s / 2u : s].data();
+            height_from = at_target ? 0 : from;
+        } else if (is_knights_move(by)) {
+            touches_four = true;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Offset o = passed_between(by)[k];
+                beside[k] = from + o.dy * width + o.dx;
+            }
+        }
     }
+    std::uint8_t step;
+    std::uint32_t length5;
+    std::ptrdiff_t from = 0, height_from = 0;
+    const std::uint16_t* height = nullptr;  // in a plane
+    bool touches_four = false;
+    std::ptrdiff_t beside[2] = {};
+};
+
+/// Heights of the edges that arrive so at the nodes from v on, of the weights own; 0 where there is none.
+HWY_INLINE Vec32 heights_to(const std::uint16_t* weight, std::ptrdiff_t v, Vec32 own, const Arrival& by) {
     const Tag32 d;
-    const auto a = wide_at(g.weight.data() + u), b = wide_at(g.weight.data() + v);
-    auto least = hn::Min(a, b), height = hn::Add(a, b);
-    if (is_knights_move(step)) {
-        for (const Offset o : passed_between(step)) {
-            const auto beside = wide_at(g.weight.data() + (u + o.dy * width + o.dx));
+    const auto other = wide_at(weight + (v + by.from));
+    auto least = hn::Min(own, other), height = hn::Add(own, other);
+    if (by.touches_four) {
+        for (const std::ptrdiff_t o : by.beside) {
+            const auto beside = wide_at(weight + (v + o));
             least = hn::Min(least, beside);
             height = hn::Add(height, beside);
         }
@@ -98,48 +119,56 @@ HWY_INLINE Vec32 heights_to(const WeightedLattice& g, std::ptrdiff_t v, std::siz
 }
 
 /// As many nodes as a vector has lanes, none of whose steps leave the row's ends.
-template <bool kBottleneck>
-HWY_INLINE void parents_of_stretch(const ParentRow& r, const StepOrder& order, int column, std::uint8_t* out) {
-    const WeightedLattice& g = r.graph;
+template <bool kBottleneck, bool kPlanes>
+HWY_INLINE void parents_of_stretch(const ParentRow& r, std::span<const Arrival> arrivals, std::ptrdiff_t v,
+                                   std::uint8_t* out) {
     const Tag32 d;
-    const std::ptrdiff_t width = g.lattice.extent().x, v = r.row * width + column;
+    const std::uint16_t* const weight = r.graph.weight.data();
     const auto sum_v = hn::LoadU(d, r.sum + v);
-    auto m_v = hn::Zero(d), best_m = hn::Set(d, ~0u), best_s = sum_v, best = hn::Set(d, ParentColumn::kNoStep);
+    auto own = hn::Zero(d), m_v = hn::Zero(d), best_m = hn::Set(d, ~0u);
+    auto best_s = sum_v, best = hn::Set(d, ParentColumn::kNoStep);
+    if constexpr (!kPlanes) own = wide_at(weight + v);
     if constexpr (kBottleneck) m_v = hn::LoadU(d, r.bottleneck + v);
-    for (std::size_t k = 0; k < order.count; ++k) {
-        const std::size_t s = order.step[k];
-        const Step step = g.lattice.steps()[s];
-        if (r.row - step.dy < 0 || r.row - step.dy >= g.lattice.extent().y) continue;
-        const std::ptrdiff_t u = v - (step.dy * width + step.dx);
-        const auto height = heights_to(g, v, s);
-        const auto sum_u = hn::LoadU(d, r.sum + u);
-        const auto reached = hn::Add(sum_u, hn::Mul(height, hn::Set(d, step.length5)));
+    for (const Arrival& by : arrivals) {
+        auto height = own;
+        if constexpr (kPlanes)
+            height = wide_at(by.height + (v + by.height_from));
+        else
+            height = heights_to(weight, v, own, by);
+        const auto sum_u = hn::LoadU(d, r.sum + (v + by.from));
+        const auto reached = hn::Add(sum_u, hn::Mul(height, hn::Set(d, by.length5)));
         // Costs are not 0, so a parent's sum is smaller; then nothing wrapped, and the edge exists.
-        auto better = hn::And(hn::Eq(reached, sum_v), hn::Lt(sum_u, sum_v));
+        auto better = hn::Eq(reached, sum_v);
         if constexpr (kBottleneck) {
-            const auto m_u = hn::LoadU(d, r.bottleneck + u);
-            better = hn::And(better, hn::Eq(hn::Max(m_u, height), m_v));
+            const auto m_u = hn::LoadU(d, r.bottleneck + (v + by.from));
+            better = hn::And(hn::And(better, hn::Lt(sum_u, sum_v)), hn::Eq(hn::Max(m_u, height), m_v));
             better = hn::And(better, hn::Or(hn::Lt(m_u, best_m), hn::And(hn::Eq(m_u, best_m), hn::Lt(sum_u, best_s))));
             best_m = hn::IfThenElse(better, m_u, best_m);
         } else {
             better = hn::And(better, hn::Lt(sum_u, best_s));
         }
         best_s = hn::IfThenElse(better, sum_u, best_s);
-        best = hn::IfThenElse(better, hn::Set(d, std::uint32_t(s)), best);
+        best = hn::IfThenElse(better, hn::Set(d, std::uint32_t(by.step)), best);
     }
     const hn::Rebind<std::uint8_t, Tag32> bytes;
-    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<Tag32>(), best)), bytes, out + column);
+    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<Tag32>(), best)), bytes, out);
 }
 
-template <bool kBottleneck>
+template <bool kBottleneck, bool kPlanes>
 void parents_of_row(const ParentRow& r, std::uint8_t* out) {
     constexpr int kReach = 2, kAtOnce = int(hn::MaxLanes(Tag32()));
-    const StepOrder order(r.graph.lattice.steps());
-    const int width = r.graph.lattice.extent().x;
+    const Lattice& lattice = r.graph.lattice;
+    const StepOrder order(lattice.steps());
+    std::vector<Arrival> arrivals;
+    for (std::size_t k = 0; k < order.count; ++k) {
+        const int from_row = r.row - lattice.steps()[order.step[k]].dy;
+        if (from_row >= 0 && from_row < lattice.extent().y) arrivals.emplace_back(r.graph, order.step[k]);
+    }
+    const int width = lattice.extent().x;
     int column = 0;
     for (; column < std::min(kReach, width); ++column) out[column] = parent_of(r, order, column);
     for (; column + kAtOnce + kReach <= width; column += kAtOnce)
-        parents_of_stretch<kBottleneck>(r, order, column, out);
+        parents_of_stretch<kBottleneck, kPlanes>(r, arrivals, index(lattice.at(column, r.row)), out + column);
     for (; column < width; ++column) out[column] = parent_of(r, order, column);
 }
 

@@ -135,10 +135,11 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
 void find_parents(const WeightedLattice& graph, const std::uint32_t* sum, const std::uint32_t* bottleneck, int row,
                   std::uint8_t* step) {
     const ParentRow r{graph, sum, bottleneck, row};
+    const bool planes = !graph.height_plane.empty();
     if (bottleneck != nullptr)
-        parents_of_row<true>(r, step);
+        planes ? parents_of_row<true, true>(r, step) : parents_of_row<true, false>(r, step);
     else
-        parents_of_row<false>(r, step);
+        planes ? parents_of_row<false, true>(r, step) : parents_of_row<false, false>(r, step);
 }
 
 std::uint16_t largest_value(const std::uint16_t* values, std::size_t count) {
