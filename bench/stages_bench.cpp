@@ -8,6 +8,7 @@
 #include "formats/picture_codec.h"
 #include "graph/bucket_planner.h"
 #include "graph/graph_distance.h"
+#include "graph/tile_planner.h"
 #include "pipeline/growth.h"
 #include "pipeline/prepared_picture.h"
 #include "pipeline/style_file.h"
@@ -94,7 +95,7 @@ void endpoints_graph_distance(benchmark::State& state) {
 
 void plan(benchmark::State& state, const Planner& planner, Metric metric) {
     const PlanRequest request{vine().graph, vine().sources, metric};
-    for (auto _ : state) benchmark::DoNotOptimize(planner.plan(request, {}).label.data());
+    for (auto _ : state) benchmark::DoNotOptimize(planner.plan(request, {}).label.size());
     state.counters["Mnodes/s"] =
         benchmark::Counter(double(vine().graph.weight.size()) * 1e-6, benchmark::Counter::kIsIterationInvariantRate);
 }
@@ -158,7 +159,8 @@ void add_all() {
     add("endpoints/graph-distance", endpoints_graph_distance);
     for (std::size_t m = 0; m < metric_names().size(); ++m) {
         const std::string name(metric_names()[m]);
-        add("plan/" + name, [m](auto& state) { plan(state, bucket_planner(), Metric(m)); });
+        add("plan/" + name, [m](auto& state) { plan(state, tile_planner(), Metric(m)); });
+        add("plan/bucket/" + name, [m](auto& state) { plan(state, bucket_planner(), Metric(m)); });
         add("plan/reference/" + name, [m](auto& state) { plan(state, reference_planner(), Metric(m)); });
     }
     add("strokes", strokes);

@@ -64,11 +64,11 @@ class BucketSearch {
         : keys_(keys),
           edges_(request.graph),
           bucket_bits_(Keys::kShift + int(std::bit_width(least_edge_cost)) - 1),
-          key_(request.graph.lattice.node_count(), kNoKey) {
-        plan_.parent.resize(key_.size(), kNoNode);
-        plan_.owner.resize(key_.size(), Plan::kNoOwner);
+          key_(request.graph.lattice.node_count(), kNoKey),
+          parent_(key_.size(), kNoNode),
+          owner_(key_.size(), Plan::kNoOwner) {
         for (const Source& s : distinct_sources(request)) {
-            plan_.owner[index(s.node)] = s.owner;
+            owner_[index(s.node)] = s.owner;
             key_[index(s.node)] = keys_.at_source(s.start);
             queue_.push({bucket(key_[index(s.node)]), index(s.node)});
         }
@@ -82,10 +82,10 @@ class BucketSearch {
             for (const RadixQueue::Entry& e : least)
                 if (!is_stale(e)) settle(e.node);
         }
-        plan_.label.resize(key_.size());
+        std::vector<PathLabel> label(key_.size());
         for (std::size_t n = 0; n < key_.size(); ++n)
-            if (key_[n] != kNoKey) plan_.label[n] = keys_.label(key_[n]);
-        return std::move(plan_);
+            if (key_[n] != kNoKey) label[n] = keys_.label(key_[n]);
+        return {std::move(label), std::move(parent_), std::move(owner_)};
     }
 
   private:
@@ -93,16 +93,16 @@ class BucketSearch {
 
     void settle(std::uint32_t u) {
         const std::uint64_t key = key_[u];
-        if (plan_.parent[u] != kNoNode) plan_.owner[u] = plan_.owner[index(plan_.parent[u])];
+        if (parent_[u] != kNoNode) owner_[u] = owner_[index(parent_[u])];
         edges_(u, [&](std::uint32_t v, std::uint32_t height, int step) {
             const std::uint64_t reached = keys_.after(key, height, edges_.length5(step)), before = key_[v];
             if (reached > before) return;
             if (reached == before) {
-                if (plan_.parent[v] != kNoNode && precedes(u, index(plan_.parent[v]))) plan_.parent[v] = NodeId{u};
+                if (parent_[v] != kNoNode && precedes(u, index(parent_[v]))) parent_[v] = NodeId{u};
                 return;
             }
             key_[v] = reached;
-            plan_.parent[v] = NodeId{u};
+            parent_[v] = NodeId{u};
             if (bucket(reached) != bucket(before)) queue_.push({bucket(reached), v});
         });
     }
@@ -112,8 +112,9 @@ class BucketSearch {
     const Edges edges_;
     const int bucket_bits_;
     std::vector<std::uint64_t> key_;
+    std::vector<NodeId> parent_;
+    std::vector<std::uint16_t> owner_;
     RadixQueue queue_;
-    Plan plan_;
 };
 
 struct EdgeRange {

@@ -7,6 +7,7 @@
 #include "graph/detail_edge_queue.h"
 #include "graph/detail_heights.h"
 #include "graph/detail_sources.h"
+#include "graph/detail_wide_plan.h"
 #include "graph/planner.h"
 
 namespace dstylize {
@@ -18,11 +19,11 @@ template <int kSteps, class Edges>
 class SpanningTree {
   public:
     SpanningTree(const PlanRequest& request, std::uint32_t largest_height)
-        : edges_(request.graph), least_(request.graph.lattice.node_count(), kNoEdge), queue_(largest_height) {
+        : edges_(request.graph),
+          least_(request.graph.lattice.node_count(), kNoEdge),
+          queue_(largest_height),
+          plan_(least_.size()) {
         rank_steps(request.graph.lattice);
-        plan_.label.resize(least_.size());
-        plan_.parent.resize(least_.size(), kNoNode);
-        plan_.owner.resize(least_.size(), Plan::kNoOwner);
         const std::vector<Source> sources = distinct_sources(request);
         for (const Source& s : sources) {
             least_[index(s.node)] = kSettled;
@@ -39,7 +40,7 @@ class SpanningTree {
         for (std::size_t count = 0;; ++count) {
             if (count % 65536 == 0) work.check();
             const auto e = queue_.pop(is_stale);
-            if (!e) return std::move(plan_);
+            if (!e) return std::move(plan_).finished();
             const std::uint32_t a = smaller_node(e->index), b = larger_node(e->index);
             const std::uint32_t from = is_settled(a) ? a : b, to = a + b - from;
             least_[to] = kSettled;
@@ -94,7 +95,7 @@ class SpanningTree {
     std::array<Forward, kRanks> forward_{};
     std::vector<std::uint64_t> least_;  // order of the least edge met so far
     EdgeQueue queue_;
-    Plan plan_;
+    WidePlan plan_;
 };
 
 }  // namespace dstylize

@@ -1,11 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/work.h"
+#include "graph/plan.h"
 #include "graph/weighted_lattice.h"
 
 namespace dstylize {
@@ -36,26 +35,6 @@ struct PlanRequest {
     std::span<const Source> sources;  ///< a node named twice keeps its smallest start, then smallest owner
     Metric metric = Metric::max_sum;
     std::uint32_t blend_factor = 5000;  ///< k of `blend`: k * highest edge + sum
-};
-
-/// What it costs to reach a node by its tree path, or kUnreached in `sum`. For `lexicographic` the two
-/// describe that path, but it is not by them that paths were compared.
-struct PathLabel {
-    static constexpr std::uint64_t kUnreached = std::numeric_limits<std::uint64_t>::max();
-    std::uint32_t highest = 0;       ///< highest edge of the path (0 for `sum`)
-    std::uint64_t sum = kUnreached;  ///< start label of its source + sum of the edge costs
-    friend bool operator==(const PathLabel&, const PathLabel&) = default;
-};
-
-/// The answer for every node: one, whatever the implementation, thread count or order of work.
-/// A node's parent is, among the neighbours that give it its label, the one with the smallest label,
-/// then the smallest index; for `lexicographic` the neighbour in the minimum spanning forest under the
-/// order (height, smaller node index, larger node index) of edges. Its owner is its parent's owner.
-struct Plan {
-    static constexpr std::uint16_t kNoOwner = 0xffff;
-    std::vector<PathLabel> label;
-    std::vector<NodeId> parent;        ///< kNoNode at sources and at unreached nodes
-    std::vector<std::uint16_t> owner;  ///< kNoOwner where no path exists
 };
 
 /// The seat of the planners. The reference planner is the oracle of every other one.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "graph/detail_sources.h"
+#include "graph/detail_wide_plan.h"
 #include "graph/metric.h"
 #include "graph/planner.h"
 
@@ -20,10 +21,11 @@ template <class Order>
 class BestFirstSearch {
   public:
     BestFirstSearch(const PlanRequest& request, Order order)
-        : graph_(request.graph), order_(order), best_(node_count(), kWorst), settled_(node_count(), false) {
-        plan_.label.resize(node_count());
-        plan_.parent.resize(node_count(), kNoNode);
-        plan_.owner.resize(node_count(), Plan::kNoOwner);
+        : graph_(request.graph),
+          order_(order),
+          plan_(node_count()),
+          best_(node_count(), kWorst),
+          settled_(node_count(), false) {
         for (const Source& s : distinct_sources(request)) offer(s.node, {0, s.start}, {}, s.owner);
     }
 
@@ -36,7 +38,7 @@ class BestFirstSearch {
             settled_[index(u)] = true;
             offer_neighbours(u);
         }
-        return std::move(plan_);
+        return std::move(plan_).finished();
     }
 
   private:
@@ -66,7 +68,7 @@ class BestFirstSearch {
 
     const WeightedLattice& graph_;
     const Order order_;
-    Plan plan_;
+    WidePlan plan_;
     std::vector<Rank> best_;
     std::vector<bool> settled_;
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> heap_;

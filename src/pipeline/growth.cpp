@@ -9,9 +9,9 @@
 #include "core/noise.h"
 #include "core/sampling.h"
 #include "dendrite/graft.h"
-#include "graph/bucket_planner.h"
 #include "graph/height_planes.h"
 #include "graph/meeting_points.h"
+#include "graph/tile_planner.h"
 #include "imaging/filters.h"
 #include "importance/fractal_noise.h"
 #include "pipeline/endpoints.h"
@@ -241,7 +241,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
             work.report(stage.name + ": paths", (0.4 + done) / (stages + 1));
             const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
             const Plan plan =
-                bucket_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+                tile_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
             if (stage.endpoints.close_loops > 0 && !given) {
                 const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
                 endpoints.insert(endpoints.end(), closings.begin(), closings.end());

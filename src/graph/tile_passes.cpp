@@ -1,0 +1,186 @@
+// The passes of detail_tiles.h, compiled for each instruction set. With 512 bits shifts over a row would
+// need other instructions, and vectors of unknown length do not fit into arrays: machines that have them
+// take the next best.
+#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "graph/tile_passes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "graph/detail_tile_costs-inl.h"
+#include "graph/detail_tile_parents-inl.h"
+#include "graph/detail_tile_sweeps-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace dstylize::HWY_NAMESPACE {
+
+template <class Lane>
+void load_labels(const TileProblem& problem, int tile, std::uint32_t base, TileWindow<Lane>& window) {
+    WindowRows<std::uint32_t> rows(problem.graph.lattice, problem.tiling, tile, ~std::uint32_t{0});
+    for (int y = 0; y < kWindow; ++y) {
+        Lane* const row = window.label[0].data() + y * kWindow;
+        load_row_above(rows(problem.label.data(), y), base, row);
+        std::copy_n(row, kWindow, window.before.data() + y * kWindow);
+    }
+    transpose(window.label[0].data(), window.label[1].data());
+}
+
+/// Writes the lanes of `fell` back. Whole vectors where the window is inside the lattice: others' nodes
+/// in the same row must not be touched.
+template <class Lane>
+HWY_INLINE void store_row(const Lane* now, const Lane* before, std::uint32_t base, std::uint64_t fell, bool inside,
+                          std::uint32_t* label) {
+    if (!inside) {
+        for (; fell != 0; fell &= fell - 1) {
+            const int x = std::countr_zero(fell);
+            label[x] = base + now[x];
+        }
+        return;
+    }
+    const Tag<std::uint32_t> d;
+    const hn::Rebind<Lane, decltype(d)> half;
+    for (int x = 0; x < kWindow; x += kLanes<std::uint32_t>) {
+        const auto lanes = hn::LoadU(half, now + x), old = hn::LoadU(half, before + x);
+        if constexpr (sizeof(Lane) == 4) {
+            hn::BlendedStore(hn::Add(lanes, hn::Set(d, base)), hn::Lt(lanes, old), d, label + x);
+        } else {
+            const auto wide = hn::PromoteTo(d, lanes);
+            hn::BlendedStore(hn::Add(wide, hn::Set(d, base)), hn::Lt(wide, hn::PromoteTo(d, old)), d, label + x);
+        }
+    }
+}
+
+template <class Lane>
+void add_lanes(Pending& pending, const Lane* now, std::uint32_t base, std::uint64_t lanes, std::uint64_t row,
+               int columns_left) {
+    if (lanes == 0) return;
+    Lane least = kFar<Lane>, largest = 0;
+    for (std::uint64_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const Lane label = now[std::countr_zero(rest)];
+        least = std::min(least, label);
+        largest = std::max(largest, label);
+    }
+    pending.add(base + least, base + largest, row, columns_left >= 0 ? lanes << columns_left : lanes >> -columns_left);
+}
+
+/// Writes back what fell and tells the tile that a node belongs to: rim nodes are the neighbours', and
+/// of the tile's own those wait for another visit whose edges end beyond what this one could see.
+template <class Lane>
+void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std::uint32_t base, std::uint64_t rows,
+                TileVisit& visit) {
+    const Tiling& tiling = problem.tiling;
+    const int rim = tiling.rim(), side = tiling.side(), width = problem.graph.lattice.extent().x;
+    const bool inside = tiling.is_inside(visit.tile);
+    const Offset origin = tiling.origin(visit.tile);
+    const std::uint64_t left = (std::uint64_t{1} << rim) - 1, right = left << (kWindow - rim);
+    const Lane seen = Lane(kFar<Lane> - problem.largest_step);
+    for (; rows != 0; rows &= rows - 1) {
+        const int y = std::countr_zero(rows);
+        const Lane *const now = window.label[0].data() + y * kWindow, *const before =
+                                                                          window.before.data() + y * kWindow;
+        const std::uint64_t fell = lanes_below(now, before);
+        if (fell == 0) continue;
+        const std::ptrdiff_t begin = std::ptrdiff_t(origin.dy + y) * width + origin.dx;
+        store_row(now, before, base, fell, inside, problem.label.data() + begin);
+        const int band = y < rim ? 0 : y < kWindow - rim ? 1 : 2;
+        const std::uint64_t row = std::uint64_t{1} << (y + (1 - band) * side);
+        Pending* const beside = &visit.after[std::size_t(3 * band)];
+        add_lanes(beside[0], now, base, fell & left, row, side);
+        add_lanes(beside[2], now, base, fell & right, row, -side);
+        std::uint64_t middle = fell & ~(left | right);
+        if (band == 1) {
+            std::uint64_t unseen = 0;
+            if (problem.largest_step != 0)
+                for (std::uint64_t rest = middle; rest != 0; rest &= rest - 1)
+                    if (now[std::countr_zero(rest)] >= seen) unseen |= rest & -rest;
+            middle = unseen;
+        }
+        add_lanes(beside[1], now, base, middle, row, 0);
+    }
+    const Pending& job = visit.job;
+    if (problem.rule != TileRule::bottleneck && job.largest >= base + seen && job.largest > base)
+        visit.after[4].add(base + seen, job.largest, job.rows, job.columns);
+}
+
+template <class Rule, int kSteps, class Lane>
+void visit_window(const TileProblem& problem, TileWindow<Lane>& window, TileVisit& visit) {
+    const std::uint32_t base = problem.rule == TileRule::bottleneck ? 0 : visit.job.least;
+    const WeightedLattice& g = problem.graph;
+    const bool even_only = problem.rule != TileRule::sum_within_bottleneck && (g.height_plane.empty() || g.symmetric);
+    load_labels(problem, visit.tile, base, window);
+    load_costs(problem, visit.tile, even_only, window);
+    const std::uint64_t rows = settle<Rule, kSteps>(window, g, even_only, visit.job, visit.rows_relaxed);
+    write_back(problem, window, base, rows, visit);
+}
+
+template <class Rule, class Lane>
+void visit_lattice(const TileProblem& problem, std::unique_ptr<TileWindow<Lane>>& window, TileVisit& visit) {
+    if (window == nullptr) {
+        window = std::make_unique<TileWindow<Lane>>();
+        for (auto& label : window->label) std::fill(std::begin(label.lanes), std::end(label.lanes), kFar<Lane>);
+    }
+    switch (problem.graph.lattice.neighbourhood()) {
+        case Neighbourhood::square4: return visit_window<Rule, 4>(problem, *window, visit);
+        case Neighbourhood::square8: return visit_window<Rule, 8>(problem, *window, visit);
+        case Neighbourhood::square16: return visit_window<Rule, 16>(problem, *window, visit);
+    }
+}
+
+void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& visit) {
+    if (problem.rule == TileRule::bottleneck) return visit_lattice<HighestEdge>(problem, scratch.narrow, visit);
+    if (problem.wide) return visit_lattice<AddCost>(problem, scratch.wide, visit);
+    visit_lattice<AddCost>(problem, scratch.narrow, visit);
+}
+
+void find_parents(const WeightedLattice& graph, const std::uint32_t* sum, const std::uint32_t* bottleneck, int row,
+                  std::uint8_t* step) {
+    const ParentRow r{graph, sum, bottleneck, row};
+    const bool planes = !graph.height_plane.empty();
+    if (bottleneck != nullptr)
+        planes ? parents_of_row<true, true>(r, step) : parents_of_row<true, false>(r, step);
+    else
+        planes ? parents_of_row<false, true>(r, step) : parents_of_row<false, false>(r, step);
+}
+
+std::uint16_t largest_value(const std::uint16_t* values, std::size_t count) {
+    const hn::CappedTag<std::uint16_t, 16> d;
+    constexpr std::size_t kAtOnce = hn::MaxLanes(decltype(d)());
+    auto largest = hn::Zero(d);
+    std::size_t n = 0;
+    for (; n + kAtOnce <= count; n += kAtOnce) largest = hn::Max(largest, hn::LoadU(d, values + n));
+    std::uint16_t lanes[kAtOnce], best = 0;
+    hn::StoreU(largest, d, lanes);
+    for (const std::uint16_t lane : lanes) best = std::max(best, lane);
+    for (; n < count; ++n) best = std::max(best, values[n]);
+    return best;
+}
+
+}  // namespace dstylize::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dstylize {
+
+HWY_EXPORT(visit_tile);
+HWY_EXPORT(find_parents);
+HWY_EXPORT(largest_value);
+
+TileScratch::TileScratch() = default;
+TileScratch::~TileScratch() = default;
+
+void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& visit) {
+    HWY_DYNAMIC_DISPATCH(visit_tile)(problem, scratch, visit);
+}
+
+void find_parents(const WeightedLattice& graph, std::span<const std::uint32_t> sum,
+                  std::span<const std::uint32_t> bottleneck, int row, std::span<std::uint8_t> step) {
+    HWY_DYNAMIC_DISPATCH(find_parents)
+    (graph, sum.data(), bottleneck.empty() ? nullptr : bottleneck.data(), row, step.data());
+}
+
+std::uint16_t largest_value(std::span<const std::uint16_t> values) {
+    return HWY_DYNAMIC_DISPATCH(largest_value)(values.data(), values.size());
+}
+
+}  // namespace dstylize
+#endif

@@ -1,0 +1,229 @@
+// Least-cost paths at the speed of memory.
+//
+// The lattice is cut into tiles. A visit to a tile copies its window of 64 x 64 labels, as 16- or 32-bit
+// differences from the smallest label that is pending there, and relaxes rows until nothing falls: a
+// sweep down lowers each row by all edges that arrive from above, 64 at a time, but only where a row
+// above fell; then up; then the same on the transposed window for right and left. What fell is
+// written back. Nodes of the rim belong to the neighbours: those that fell are pending there. The tile
+// with the smallest pending label is visited next, so labels come to rest in nearly the order in which
+// best-first search would settle them, and a tile is visited about three times.
+//
+// It is exact whatever the order of visits: a label is always the cost of some path, it only falls, and
+// whenever one falls, all edges that leave its node are relaxed later. Three things need care:
+//   - Labels below the smallest pending one become 0. They have been relaxed with that value, and nothing
+//     that is pending can lower them.
+//   - Labels too far above it become "far". If they are pending, or fell to where an edge would end out of
+//     sight, the tile is visited again, with a later base.
+//   - Edges that do not exist are as dear as "far", and sums stop there; so masks and the border of
+//     the lattice need no thought.
+//
+// `max-sum` takes two passes: first the bottlenecks M, the same with maxima instead of sums; then the
+// sums over those edges u -> v alone for which max(M(u), h) = M(v). Its labels rank M first, so that a
+// node's M never depends on sums, and this is what best-first search with that order finds.
+//
+// Parents follow from labels at rest, row by row; owners from parents.
+#include "graph/tile_planner.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "graph/bucket_planner.h"
+#include "graph/detail_sources.h"
+#include "graph/detail_tile_queue.h"
+#include "graph/detail_tiles.h"
+
+namespace dstylize {
+namespace {
+
+using Labels = std::vector<std::uint32_t>;
+constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
+constexpr std::uint32_t kLargestBottleneck = 65534;
+/// Above that 16-bit windows see too few steps ahead.
+constexpr std::uint32_t kLargestNarrowStep = 20000;
+
+int thread_count(const Work& work) { return work.threads > 0 ? work.threads : tbb::this_task_arena::max_concurrency(); }
+
+/// Calls body(worker) for each of so many workers, of which some may run after one another.
+template <class Body>
+void run_workers(int workers, const Body& body) {
+    if (workers == 1) return body(0);
+    tbb::task_arena arena(std::min(workers, tbb::info::default_concurrency()));
+    arena.execute([&] { tbb::parallel_for(0, workers, body, tbb::simple_partitioner()); });
+}
+
+/// The highest edge that there can be, and the longest step.
+struct EdgeBounds {
+    std::uint32_t height = 0, length5 = 0;
+    std::uint32_t cost() const { return height * length5; }
+};
+
+EdgeBounds edge_bounds(const WeightedLattice& g) {
+    EdgeBounds bounds;
+    for (const Step s : g.lattice.steps()) bounds.length5 = std::max(bounds.length5, std::uint32_t(s.length5));
+    for (const auto& plane : g.height_plane)
+        bounds.height = std::max(bounds.height, std::uint32_t(largest_value(plane)));
+    if (g.height_plane.empty()) bounds.height = 2 * std::uint32_t(largest_value(g.weight));
+    return bounds;
+}
+
+/// Brings the labels to rest, sources being those that are not unreached. False if they do not fit.
+bool settle_labels(const TileProblem& problem, const std::vector<Source>& sources, const Work& work, TileStats& stats) {
+    const Lattice& lattice = problem.graph.lattice;
+    const Tiling& tiling = problem.tiling;
+    const int workers = std::min(thread_count(work), tiling.count());
+    TileQueue queue(tiling, workers, problem.rule == TileRule::bottleneck ? 8 : 65536);
+    for (const Source& s : sources) {
+        const int i = lattice.column(s.node), j = lattice.row(s.node), tile = tiling.tile_of(i, j);
+        const Offset origin = tiling.origin(tile);
+        const std::uint32_t label = problem.label[index(s.node)];
+        Pending pending;
+        pending.add(label, label, std::uint64_t{1} << (j - origin.dy), std::uint64_t{1} << (i - origin.dx));
+        queue.add(tile, pending);
+    }
+    std::atomic<bool> fits{true};
+    std::atomic<std::uint64_t> visits{0}, rows{0};
+    run_workers(workers, [&](int worker) {
+        TileScratch scratch;
+        std::uint64_t own_visits = 0, own_rows = 0;
+        while (auto visit = queue.take(worker)) {
+            if (visit->job.least > problem.largest_base()) fits = false;
+            if (!fits || work.stop.stop_requested()) {
+                queue.abandon();
+                break;
+            }
+            visit_tile(problem, scratch, *visit);
+            ++own_visits;
+            own_rows += visit->rows_relaxed;
+            queue.finish(*visit);
+        }
+        visits += own_visits;
+        rows += own_rows;
+    });
+    work.check();
+    stats.visits += visits;
+    stats.rows_relaxed += rows;
+    return fits;
+}
+
+ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck,
+                     const std::vector<Source>& sources, const Work& work) {
+    std::vector<std::uint8_t> step(sum.size());
+    const Extent e = g.lattice.extent();
+    const int workers = std::min(thread_count(work), e.y);
+    run_workers(workers, [&](int worker) {
+        for (int j = int(std::int64_t(e.y) * worker / workers); j < int(std::int64_t(e.y) * (worker + 1) / workers);
+             ++j)
+            find_parents(g, sum, bottleneck, j,
+                         std::span(step).subspan(std::size_t(j) * std::size_t(e.x), std::size_t(e.x)));
+    });
+    for (const Source& s : sources)
+        if (sum[index(s.node)] == s.start && (bottleneck.empty() || bottleneck[index(s.node)] == 0))
+            step[index(s.node)] = ParentColumn::kNoStep;
+    return {g.lattice, std::move(step)};
+}
+
+/// Entries of the owners' palette: 0 for none. Each node once: up to where the owner is known, and back.
+template <class Entry>
+std::vector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+                                      const std::vector<Entry>& of_source) {
+    std::vector<Entry> entry(sum.size(), 0);
+    for (std::size_t k = 0; k < sources.size(); ++k)
+        if (parent[index(sources[k].node)] == kNoNode) entry[index(sources[k].node)] = of_source[k];
+    std::vector<std::uint32_t> way;
+    for (std::uint32_t n = 0; n < entry.size(); ++n) {
+        if (sum[n] == kUnreached) continue;
+        std::uint32_t at = n;
+        for (; entry[at] == 0; at = index(parent[at])) way.push_back(at);
+        for (const std::uint32_t on_way : way) entry[on_way] = entry[at];
+        way.clear();
+    }
+    return entry;
+}
+
+OwnerColumn owners(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources) {
+    std::vector<std::uint16_t> palette;
+    for (const Source& s : sources) palette.push_back(s.owner);
+    std::sort(palette.begin(), palette.end());
+    palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
+    palette.insert(palette.begin(), Plan::kNoOwner);
+    if (palette.size() == 2) {
+        std::vector<std::uint8_t> entry(sum.size());
+        for (std::size_t n = 0; n < sum.size(); ++n) entry[n] = sum[n] != kUnreached;
+        return {std::move(palette), std::move(entry)};
+    }
+    std::vector<std::uint16_t> of_source;
+    for (const Source& s : sources)
+        of_source.push_back(
+            std::uint16_t(std::lower_bound(palette.begin() + 1, palette.end(), s.owner) - palette.begin()));
+    if (palette.size() <= 256) {
+        const std::vector<std::uint8_t> narrow(of_source.begin(), of_source.end());
+        return {std::move(palette), entries_by_parents(sum, parent, sources, narrow)};
+    }
+    std::vector<std::uint16_t> wide = entries_by_parents(sum, parent, sources, of_source);
+    for (std::uint16_t& w : wide) w = palette[w];
+    return wide;
+}
+
+/// The plan by tiles, or nothing where they do not serve.
+std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStats& stats) {
+    const WeightedLattice& g = request.graph;
+    const bool has_bottlenecks = request.metric == Metric::max_sum;
+    if (g.lattice.adjacency() || (request.metric != Metric::sum && !has_bottlenecks)) return {};
+    const std::vector<Source> sources = distinct_sources(request);
+    const EdgeBounds bounds = edge_bounds(g);
+    const bool wide = bounds.cost() > kLargestNarrowStep;
+    if (has_bottlenecks && bounds.height > kLargestBottleneck) return {};
+
+    Labels sum, bottleneck;
+    const Tiling tiling(g.lattice);
+    const auto problem = [&](TileRule rule, bool wide_lanes, std::uint32_t largest_step, Labels& label) {
+        label.assign(g.lattice.node_count(), kUnreached);
+        return TileProblem{g, tiling, rule, wide_lanes, largest_step, label, bottleneck};
+    };
+    if (has_bottlenecks) {
+        const TileProblem highest = problem(TileRule::bottleneck, false, 0, bottleneck);
+        for (const Source& s : sources) bottleneck[index(s.node)] = 0;
+        settle_labels(highest, sources, work, stats);
+    }
+    const TileRule rule = has_bottlenecks ? TileRule::sum_within_bottleneck : TileRule::sum;
+    const TileProblem sums = problem(rule, wide, bounds.cost(), sum);
+    for (const Source& s : sources) {
+        if (s.start > sums.largest_base()) return {};
+        sum[index(s.node)] = std::uint32_t(s.start);
+    }
+    if (!settle_labels(sums, sources, work, stats)) return {};
+    stats.tiles = std::uint64_t(tiling.count());
+    ParentColumn parent = parents(g, sum, bottleneck, sources, work);
+    OwnerColumn owner = owners(sum, parent, sources);
+    return Plan{{std::move(sum), std::move(bottleneck)}, std::move(parent), std::move(owner)};
+}
+
+class TilePlanner final : public Planner {
+  public:
+    Plan plan(const PlanRequest& request, const Work& work) const override {
+        TileStats stats;
+        return plan_by_tiles(request, work, stats);
+    }
+};
+
+}  // namespace
+
+Plan plan_by_tiles(const PlanRequest& request, const Work& work, TileStats& stats) {
+    work.check();
+    if (std::optional<Plan> plan = tiled(request, work, stats)) return *std::move(plan);
+    stats = {};
+    return bucket_planner().plan(request, work);
+}
+
+const Planner& tile_planner() {
+    static const TilePlanner planner;
+    return planner;
+}
+
+}  // namespace dstylize

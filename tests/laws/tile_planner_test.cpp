@@ -1,0 +1,180 @@
+// The tile planner against the reference, bit for bit, with every instruction set that the machine has;
+// and what its visits may number.
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <string>
+
+#include "graph/height_planes.h"
+#include "graph/planner.h"
+#include "graph/tile_planner.h"
+#include "laws/random_graphs.h"
+
+namespace dstylize {
+namespace {
+
+using test::Dice;
+using test::random_graph;
+using test::RandomGraph;
+
+/// Every instruction set in turn, best first; afterwards the best again.
+template <class Body>
+void with_every_instruction_set(Body body) {
+    for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        SCOPED_TRACE(hwy::TargetName(rest & -rest));
+        body();
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
+/// Whether the tiles did it is checked, too: a planner that always asks another one agrees with it.
+void expect_reference_answer(const RandomGraph& g, Metric metric, int threads = 1, bool by_tiles = true) {
+    const PlanRequest request{g.graph, g.sources, metric};
+    Work work;
+    work.threads = threads;
+    TileStats stats;
+    const Plan expected = reference_planner().plan(request, {}), found = plan_by_tiles(request, work, stats);
+    const std::string what = g.shape + ", " + std::string(metric_names()[std::size_t(metric)]);
+    ASSERT_EQ(stats.tiles > 0, by_tiles) << what;
+    ASSERT_TRUE(found.label == expected.label) << what;
+    ASSERT_TRUE(found.parent == expected.parent) << what;
+    ASSERT_TRUE(found.owner == expected.owner) << what;
+}
+
+std::uint32_t largest_height(const WeightedLattice& g) {
+    std::uint32_t largest = 0;
+    for (const auto& plane : g.height_plane)
+        for (const std::uint16_t h : plane) largest = std::max<std::uint32_t>(largest, h);
+    if (g.height_plane.empty())
+        for (const NodeWeight w : g.weight) largest = std::max<std::uint32_t>(largest, 2u * w);
+    return largest;
+}
+
+void expect_both_metrics(const RandomGraph& g, int threads = 1) {
+    ASSERT_NO_FATAL_FAILURE(expect_reference_answer(g, Metric::sum, threads));
+    ASSERT_NO_FATAL_FAILURE(expect_reference_answer(g, Metric::max_sum, threads, largest_height(g.graph) < 65535));
+}
+
+RandomGraph weighted(Extent e, Neighbourhood neighbourhood, std::vector<NodeWeight> weight) {
+    RandomGraph g;
+    g.graph.lattice = Lattice(e, neighbourhood);
+    g.graph.weight = std::move(weight);
+    g.sources = {{NodeId{0}, 0, 0}};
+    g.shape = std::to_string(e.x) + " x " + std::to_string(e.y);
+    return g;
+}
+
+TEST(TilePlanner, AgreesWithTheReferenceOnTenThousandGraphs) {
+    for (std::uint32_t seed = 0; seed < 10000; ++seed)
+        ASSERT_NO_FATAL_FAILURE(expect_both_metrics(random_graph(seed, 16)));
+}
+
+TEST(TilePlanner, AgreesWithTheReferenceOnGraphsOfManyTiles) {
+    for (std::uint32_t seed = 20000; seed < 20200; ++seed)
+        ASSERT_NO_FATAL_FAILURE(expect_both_metrics(random_graph(seed, 300), 1 + int(seed % 3)));
+}
+
+TEST(TilePlanner, AgreesWithTheReferenceWithEveryInstructionSet) {
+    with_every_instruction_set([] {
+        for (std::uint32_t seed = 50000; seed < 50300; ++seed)
+            ASSERT_NO_FATAL_FAILURE(expect_both_metrics(random_graph(seed, seed % 4 == 0 ? 140 : 24)));
+    });
+}
+
+TEST(TilePlanner, AgreesWithTheReferenceWhereTilesEnd) {
+    for (const Neighbourhood n : {Neighbourhood::square4, Neighbourhood::square8, Neighbourhood::square16})
+        for (const int x : {1, 2, 59, 60, 61, 62, 63, 64, 65, 119, 120, 121, 123, 124, 125})
+            for (const int y : {1, 60, 61, 62, 63, 124}) {
+                Dice dice(std::uint32_t(x * 1000 + y));
+                std::vector<NodeWeight> weight(std::size_t(x * y));
+                for (NodeWeight& w : weight) w = NodeWeight(1 + dice.below(dice.one_in(2) ? 3 : 900));
+                RandomGraph g = weighted({x, y}, n, std::move(weight));
+                g.sources = {{NodeId{dice.below(std::uint32_t(x * y))}, dice.below(5000), 4},
+                             {NodeId{dice.below(std::uint32_t(x * y))}, dice.below(5000), 7}};
+                ASSERT_NO_FATAL_FAILURE(expect_both_metrics(g));
+            }
+}
+
+/// Walls from side to side with a gap at alternate ends: one path through all of it.
+RandomGraph serpentine(Extent e, NodeWeight floor, NodeWeight wall) {
+    std::vector<NodeWeight> weight(e.count(), floor);
+    for (int j = 1; j < e.y; j += 2)
+        for (int i = 0; i < e.x; ++i)
+            if (i != (j % 4 == 1 ? e.x - 1 : 0)) weight[std::size_t(j * e.x + i)] = wall;
+    return weighted(e, Neighbourhood::square8, std::move(weight));
+}
+
+TEST(TilePlanner, FollowsAPathThatComesBackToATileManyTimes) {
+    for (const NodeWeight floor : {1, 255, 1400, 9000, 20000})
+        ASSERT_NO_FATAL_FAILURE(expect_reference_answer(serpentine({190, 130}, floor, kImpassable), Metric::sum));
+    constexpr bool kByTiles = false;  // its sums need 33 bits
+    ASSERT_NO_FATAL_FAILURE(
+        expect_reference_answer(serpentine({190, 130}, 65535, kImpassable), Metric::sum, 1, kByTiles));
+    ASSERT_NO_FATAL_FAILURE(expect_both_metrics(serpentine({190, 130}, 1, 255)));
+}
+
+TEST(TilePlanner, SeesStartLabelsAtTheEdgeOfA16BitWindow) {
+    for (const std::uint64_t start : {1u, 65534u, 65535u, 65536u, 65535u - 14 * 255, 65536u - 14 * 255, 131070u})
+        for (const NodeWeight w : {1, 3, 255}) {
+            RandomGraph g = weighted({70, 5}, Neighbourhood::square8, std::vector<NodeWeight>(350, w));
+            for (int j = 0; j < 5; ++j) g.graph.weight[std::size_t(70 * j + 25)] = kImpassable;  // so both last
+            g.sources = {{NodeId{0}, 0, 1}, {NodeId{30}, start, 2}};
+            ASSERT_NO_FATAL_FAILURE(expect_both_metrics(g));
+        }
+}
+
+TEST(TilePlanner, LeavesSumsThatDoNotFit32BitsToAnother) {
+    RandomGraph g = weighted({90, 3}, Neighbourhood::square8, std::vector<NodeWeight>(270, 255));
+    for (const std::uint64_t start :
+         {0xffff0000ull - 300000, 0xffff0000ull - 2, 0xffff0000ull, 0xffffffffull, 0x100000000ull}) {
+        g.sources = {{NodeId{0}, start, 1}};
+        const Plan expected = reference_planner().plan({g.graph, g.sources, Metric::sum}, {});
+        EXPECT_TRUE(tile_planner().plan({g.graph, g.sources, Metric::sum}, {}).label == expected.label) << start;
+        EXPECT_TRUE(tile_planner().plan({g.graph, g.sources, Metric::sum}, {}).parent == expected.parent) << start;
+    }
+}
+
+TEST(TilePlanner, KeepsMoreOwnersApartThanABytesWorth) {
+    RandomGraph g = weighted({100, 40}, Neighbourhood::square8, std::vector<NodeWeight>(4000, 9));
+    g.sources.clear();
+    for (std::uint32_t k = 0; k < 300; ++k) g.sources.push_back({NodeId{k * 13}, k % 7, std::uint16_t(65534 - k)});
+    ASSERT_NO_FATAL_FAILURE(expect_both_metrics(g));
+}
+
+TEST(TilePlanner, AnswersTheSameForAnyNumberOfThreads) {
+    for (std::uint32_t seed = 60000; seed < 60020; ++seed) {
+        const RandomGraph g = random_graph(seed, 700);
+        for (const Metric metric : {Metric::sum, Metric::max_sum}) {
+            const PlanRequest request{g.graph, g.sources, metric};
+            Work one;
+            one.threads = 1;
+            const Plan expected = tile_planner().plan(request, one);
+            for (const int threads : {2, 5}) {
+                Work work;
+                work.threads = threads;
+                const Plan found = tile_planner().plan(request, work);
+                ASSERT_TRUE(found.label == expected.label && found.parent == expected.parent) << g.shape;
+                ASSERT_TRUE(found.owner == expected.owner) << g.shape;
+            }
+        }
+    }
+}
+
+/// Work is counted, as time is not tested: visits and rows for 8 neighbours and noise, the costliest map.
+TEST(TilePlanner, VisitsATileAFewTimes) {
+    Dice dice(1);
+    std::vector<NodeWeight> weight(1000 * 1000);
+    for (NodeWeight& w : weight) w = NodeWeight(1 + dice.below(255));
+    const RandomGraph g = weighted({1000, 1000}, Neighbourhood::square8, std::move(weight));
+    Work work;
+    work.threads = 1;
+    TileStats stats;
+    plan_by_tiles({g.graph, g.sources, Metric::sum}, work, stats);
+    EXPECT_LE(double(stats.visits) / double(stats.tiles), 3.5);
+    EXPECT_LE(64.0 * double(stats.rows_relaxed) / 1e6, 40.0) << "relaxations of a node";
+}
+
+}  // namespace
+}  // namespace dstylize
