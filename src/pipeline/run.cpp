@@ -68,6 +68,10 @@ class Run {
         if (request_.place && kind != Background::Kind::file && kind != Background::Kind::input)
             throw Error(ErrorCode::bad_usage, "", "--place: there is no picture to put the drawing in",
                         "give --background FILE");
+        if (request_.place && !request_.show.empty())
+            throw Error(ErrorCode::bad_usage, "",
+                        "--show " + request_.show + ": is of the drawing alone, and --place puts it into a background",
+                        "leave one of them out");
     }
 
     void load_style() {

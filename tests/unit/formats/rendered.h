@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/picture.h"
 
@@ -72,6 +73,32 @@ inline Picture read_png(const std::string& path) {
         }
     cairo_surface_destroy(surface);
     return picture;
+}
+
+/// Straight-alpha pixels as a PNG file.
+inline std::vector<std::byte> png_file(const Picture& picture) {
+    cairo_surface_t* surface =
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, picture.extent().x, picture.extent().y);
+    for (int y = 0; y < picture.extent().y; ++y)
+        for (int x = 0; x < picture.extent().x; ++x) {
+            const Rgba8 p = picture(x, y);
+            const auto premultiplied = [&](std::uint8_t c) { return std::uint32_t((c * p.a + 127) / 255); };
+            const std::uint32_t v = std::uint32_t(p.a) << 24 | premultiplied(p.r) << 16 | premultiplied(p.g) << 8 |
+                                    premultiplied(p.b);
+            std::memcpy(cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface) + 4 * x, &v,
+                        4);
+        }
+    cairo_surface_mark_dirty(surface);
+    std::vector<std::byte> file;
+    const auto append = [](void* to, const unsigned char* bytes, unsigned count) {
+        const auto* first = reinterpret_cast<const std::byte*>(bytes);
+        auto& out = *static_cast<std::vector<std::byte>*>(to);
+        out.insert(out.end(), first, first + count);
+        return CAIRO_STATUS_SUCCESS;
+    };
+    EXPECT_EQ(cairo_surface_write_to_png_stream(surface, append, &file), CAIRO_STATUS_SUCCESS);
+    cairo_surface_destroy(surface);
+    return file;
 }
 
 /// How two pictures of one size differ, over the three colour channels.

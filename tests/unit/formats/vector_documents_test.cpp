@@ -24,9 +24,9 @@ const DocumentInfo kInfo{
     "Vine <1> & \"more\"",
     {{"author", "Zoë Ünal"}, {"copyright", "CC0"}, {"recipe", "[style]\nname = \"vine\" # <&> ]]>\n"}}};
 
-Picture svg_rendered(const DisplayList& list, int width) {
+Picture svg_rendered(const DisplayList& list, int width, const DocumentInfo& info = {}) {
     const Scratch scratch;
-    const std::string svg = scratch.write("a.svg", svg_document(list, {})), png = scratch.path("a.png");
+    const std::string svg = scratch.write("a.svg", svg_document(list, info)), png = scratch.path("a.png");
     const auto run = outcome_of("rsvg-convert --width=" + std::to_string(width) + " -o " + png + " " + svg);
     EXPECT_EQ(run.status, 0) << run.output;
     return support::read_png(png);
@@ -86,6 +86,67 @@ TEST(VectorDocuments, LightIsScreenedOverWhatLiesBelow) {
     EXPECT_GT(wanted(300, 180).b, 180);
     expect_agreement(svg_rendered(list, 640), wanted);
     expect_agreement(pdf_rendered(list, 640, 480), wanted);
+}
+
+class Mixed : public ::testing::TestWithParam<Mixing> {};
+INSTANTIATE_TEST_SUITE_P(Blends, Mixed,
+                         ::testing::Values(Mixing::over, Mixing::multiply, Mixing::screen, Mixing::soft_light));
+
+TEST_P(Mixed, ViewersBlendLikeTheRaster) {
+    DisplayList list = test_drawing();
+    list.mixing = GetParam();
+    list.paper.colour = {0.7f, 0.45f, 0.3f, 1};
+    for (Item& item : list.layers[1].items) std::get<VariableStroke>(item).colour = {0.25f, 0.6f, 0.8f, 1};
+    const Picture wanted = raster(list, {{640, 480}}, {});
+    expect_agreement(svg_rendered(list, 640), wanted);
+    expect_agreement(pdf_rendered(list, 640, 480), wanted);
+    list.mixing = Mixing::over;
+    const double without = support::difference(raster(list, {{640, 480}}, {}), wanted).rms;
+    EXPECT_TRUE(GetParam() == Mixing::over ? without == 0 : without > 5) << without;
+}
+
+TEST_P(Mixed, BetweenLayersOfLightPaintIsBlendedWithAllBelow) {
+    DisplayList list = test_drawing();
+    list.mixing = GetParam();
+    list.paper.colour = {0.5f, 0.4f, 0.3f, 1};
+    Glow glow;
+    glow.core = {0.3f, 0.2f, 0.1f, 1};
+    const auto exposed = [&](float light) { return 1 - std::exp(-glow.exposure * light); };
+    Layer light{"light", Blend::max, {}, glow};
+    light.items.push_back(VariableStroke{{{20, 200}, {150, 90}, {300, 40}},
+                                         {20, 14, 8},
+                                         {exposed(glow.core.r), exposed(glow.core.g), exposed(glow.core.b), 1}});
+    list.layers.insert(list.layers.begin() + 1, std::move(light));
+    const Picture wanted = raster(list, {{640, 480}}, {});
+    expect_agreement(svg_rendered(list, 640), wanted);
+    expect_agreement(pdf_rendered(list, 640, 480), wanted);
+}
+
+TEST_P(Mixed, OnNoPaperPaintIsItself) {
+    DisplayList list = test_drawing();
+    list.paper.colour.a = 0;
+    list.mixing = GetParam();
+    for (const Picture& p : {raster(list, {{320, 240}}, {}), svg_rendered(list, 320), pdf_rendered(list, 320, 240)}) {
+        EXPECT_EQ(p(2, 2).a, 0);
+        EXPECT_NEAR(p(61, 200).r, 31, 1);
+        EXPECT_NEAR(p(61, 200).g, 38, 1);
+        EXPECT_EQ(p(61, 200).a, 255);
+    }
+}
+
+TEST_P(Mixed, TheCoverLiesOverEverythingUnblended) {
+    DisplayList list = test_drawing();
+    list.mixing = GetParam();
+    Picture cover({320, 240}, {0, 0, 0, 0});  // opaque below, then half transparent, clear above
+    for (int y = 120; y < 240; ++y)
+        for (int x = 0; x < 320; ++x) cover(x, y) = {200, std::uint8_t(x / 2), 40, std::uint8_t(y < 180 ? 128 : 255)};
+    list.cover = std::make_shared<Picture>(cover);
+    const Picture wanted = raster(list, {{320, 240}}, {});
+    EXPECT_EQ(wanted(61, 200), cover(61, 200));
+    DocumentInfo info;
+    info.cover_png = support::png_file(cover);
+    expect_agreement(svg_rendered(list, 320, info), wanted);
+    expect_agreement(pdf_rendered(list, 320, 240), wanted);
 }
 
 TEST(SvgDocument, TransparentPaperStaysTransparent) {
