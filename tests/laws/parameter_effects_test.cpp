@@ -85,7 +85,8 @@ class Change : public KeyedVisitor {
 constexpr Extent kFrame{160, 120};
 
 /// One of every kind, quick ones first; the others build on these.
-constexpr std::array kStyles{"vine", "letters", "tree", "lightning", "storm", "lichen-letters", "ink", "pareidolia"};
+constexpr std::array kStyles{"vine",  "letters",        "tree", "autumn",    "lightning",
+                             "storm", "lichen-letters", "ink",  "pareidolia"};
 
 /// The styles that a table's keys are tried on: all, but stages are many, so for theirs the one that uses them.
 std::vector<std::string> styles_for(const std::string& key) {
@@ -114,9 +115,18 @@ std::vector<std::string> styles_for(const std::string& key) {
 }
 
 /// Quick to draw, and so that its own parameters count.
-Style small_style(const std::string& name) {
-    std::vector<Setting> settings{{"lattice.detail", "96"}};
-    if (name == "lichen-letters") settings.insert(settings.end(), {{"lichen.species", "own"}, {"lichen.cups", "100"}});
+Style small_style(const std::string& name, bool with_leaves) {
+    std::vector<Setting> settings{{"lattice.detail", with_leaves ? "400" : "96"}};
+    static const std::map<std::string, std::vector<Setting>> kMore{
+        {"lichen-letters", {{"lichen.species", "own"}, {"lichen.cups", "100"}}},
+        {"storm", {{"storm.shine_tone", "0.5"}}},
+        {"vine",
+         {{"width.constant", "0.2"},
+          {"fields.calm_scale", "5"},
+          {"fields.calm_detail", "1"},
+          {"fields.calm_tone", "1"}}}};
+    if (const auto more = kMore.find(name); more != kMore.end())
+        settings.insert(settings.end(), more->second.begin(), more->second.end());
     return load_style(name, settings);
 }
 
@@ -155,7 +165,7 @@ TEST_P(EveryParameter, ChangesTheDrawingOfSomeStyle) {
     const std::string table = GetParam() + ".";
     std::set<std::string> all, effective;
     for (const char* name : kStyles) {
-        const auto fresh = [&] { return small_style(name); };
+        const auto fresh = [&] { return small_style(name, table == "vine."); };
         Style first = fresh();
         Changes changes;
         first.visit(changes);
