@@ -224,6 +224,7 @@ TEST(ParameterEffects, LeavesGrowWhereThePictureIsCalm) {
     EXPECT_LT(leaves({{"fields.calm_detail", "0"}}), usual);
     EXPECT_LT(leaves({{"fields.calm_tone", "0"}}), usual);
     EXPECT_NE(leaves({{"fields.calm_scale", "200"}}), usual);
+    EXPECT_EQ(leaves({{"vine.leaf_at_least", "10000"}}), 0u);
 }
 
 /// A wide part and an islet of 6 x 6 pixels.
