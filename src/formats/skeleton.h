@@ -23,7 +23,8 @@ struct Skeleton {
 ///     "format"   "dstylize skeleton"
 ///     "version"  1
 ///     "lattice"  [columns, rows]: node id = row * columns + column, at (column + 0.5, row + 0.5)
-///     "picture"  [width, height] in pixels; x_px = x * width / columns
+///     "picture"  [width, height] in pixels; x_px = x * width / columns; the input's, also where the drawing
+///                was put into a background
 ///     "title"    text
 ///     "info"     object of texts: author, copyright, recipe, ...
 ///     "stages"   names of the stages, by number

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "core/error.h"
 #include "formats/files.h"
@@ -163,18 +165,30 @@ class Run {
         check_endpoints(controls_.endpoints, input_.picture.extent(), stages, name);
     }
 
-    void check_memory() const {
-        // Measured, and rounded up: raster, shared memory and encoder per output pixel; fields, labels and edge heights
-        // per node.
-        constexpr double kBytesPerPixel = 16, kBytesPerNode = 180;
+    struct Need {
+        double bytes;
+        const char* remedy;
+    };
+    /// The greatest of what the steps of a run hold; measured, and rounded up.
+    Need most_memory() const {
+        // Raster, shared memory and encoder per output pixel, in a place also its ground and cover at that size;
+        // fields, labels and edge heights per node.
+        constexpr double kBytesPerPixel = 16, kBytesPerPlacedPixel = 24, kBytesPerNode = 180;
+        const SceneMemory scene = request_.place ? scene_memory(ground_.extent(), style_.scene) : SceneMemory{};
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
-        const double nodes = double(lattice_.count());
-        const double wanted = std::max(pixels * kBytesPerPixel, nodes * kBytesPerNode);
-        if (wanted > double(request_.max_memory_bytes))
+        const double painting = pixels * (request_.place ? kBytesPerPlacedPixel : kBytesPerPixel) + scene.kept;
+        const std::array needs{
+            Need{painting, "ask for a smaller --size, or raise --max-memory"},
+            Need{double(lattice_.count()) * kBytesPerNode, "ask for less --detail, or raise --max-memory"},
+            Need{scene.peak, "give a smaller background or --set scene.painted=0, or raise --max-memory"}};
+        return *std::max_element(needs.begin(), needs.end(),
+                                 [](const Need& a, const Need& b) { return a.bytes < b.bytes; });
+    }
+
+    void check_memory() const {
+        if (const Need most = most_memory(); most.bytes > double(request_.max_memory_bytes))
             throw Error(ErrorCode::bad_usage, name_of(request_.input),
-                        fmt::format("needs about {:.1f} GiB of memory", wanted / double(1u << 30)),
-                        pixels * kBytesPerPixel == wanted ? "ask for a smaller --size, or raise --max-memory"
-                                                          : "ask for less --detail, or raise --max-memory");
+                        fmt::format("needs about {:.1f} GiB of memory", most.bytes / double(1u << 30)), most.remedy);
         for (const PlannedOutput& output : outputs_) {
             const int most = most_pixels(output.format->id), side = frame_.size_px.long_side();
             if (output.format->holds == Holds::picture && request_.show.empty() && side > most)
@@ -274,7 +288,8 @@ class Run {
         for (std::size_t s = 0; s < drawing.endpoints.size(); ++s)
             report_.endpoints.emplace_back(drawing.stage_names[s], drawing.endpoints[s]);
         if (request_.place)
-            drawing.list = in_scene(drawing, ground_, box_, style_.scene, request_.seed, part(work_, 0.85, 0.85));
+            drawing.list = in_scene(drawing, std::exchange(ground_, {}), box_, style_.scene, request_.seed,
+                                    part(work_, 0.85, 0.85));
         else
             lay_ground(drawing.list.paper);
         drawing.list.mixing = style_.scene.blend;

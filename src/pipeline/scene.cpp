@@ -13,12 +13,13 @@ namespace {
 
 constexpr int kMostGround_px = 4096, kMostPainted_px = 2048;
 
-Picture at_most(const Picture& picture, int long_side) {
-    const Extent e = picture.extent();
-    if (e.long_side() <= long_side) return picture;
-    const double k = double(long_side) / e.long_side();
+/// The size at which a background is worked on.
+Extent ground_extent(Extent background, const SceneParameters& parameters) {
+    const int most = parameters.painted > 0 ? kMostPainted_px : kMostGround_px;
+    if (background.long_side() <= most) return background;
+    const double k = double(most) / background.long_side();
     const auto side = [k](int px) { return std::max(1, int(std::lround(px * k))); };
-    return resized(picture, {side(e.x), side(e.y)});
+    return {side(background.x), side(background.y)};
 }
 
 }  // namespace
@@ -75,7 +76,8 @@ DisplayList in_scene(const Drawing& drawing, const Picture& background, const Bo
                      const SceneParameters& parameters, std::uint64_t seed, const Work& work) {
     const std::vector<Foot> roots = parameters.stands ? feet(drawing) : std::vector<Foot>{};
     const Placement to = placement(drawing.list, roots, box, parameters.stands);
-    Picture ground = at_most(background, parameters.painted > 0 ? kMostPainted_px : kMostGround_px);
+    const Extent size = ground_extent(background.extent(), parameters);
+    Picture ground = size == background.extent() ? background : resized(background, size);
     const float px_per_list = float(ground.extent().long_side()) / float(background.extent().long_side());
     work.report("painting the background", 0);
     ground = brushed(ground, float(ground.extent().long_side()) / 1024, parameters.painted, seed, work);
@@ -90,6 +92,15 @@ DisplayList in_scene(const Drawing& drawing, const Picture& background, const Bo
     out.paper = {};
     out.paper.picture = std::make_shared<Picture>(std::move(ground));
     return out;
+}
+
+SceneMemory scene_memory(Extent background, const SceneParameters& parameters) {
+    // The painter holds planes of the picture and of the canvas, and up to four strokes for every 16 pixels; else
+    // colours around the place are sorted. The ground and its cover are kept.
+    constexpr double kPainted = 190, kPlain = 24, kKept = 8, kBackground = sizeof(Rgba8);
+    const double pixels = double(ground_extent(background, parameters).count());
+    return {double(background.count()) * kBackground + pixels * (parameters.painted > 0 ? kPainted : kPlain),
+            pixels * kKept};
 }
 
 }  // namespace dstylize

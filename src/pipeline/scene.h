@@ -41,4 +41,10 @@ DisplayList moved(DisplayList drawing, const Placement& placement, Extent frame_
 DisplayList in_scene(const Drawing& drawing, const Picture& background, const Box& box,
                      const SceneParameters& parameters, std::uint64_t seed, const Work& work);
 
+/// Bytes that in_scene needs beside the drawing, and what of them its result keeps. Measured, and rounded up.
+struct SceneMemory {
+    double peak = 0, kept = 0;
+};
+SceneMemory scene_memory(Extent background_px, const SceneParameters& parameters);
+
 }  // namespace dstylize

@@ -130,7 +130,7 @@ TEST(Moved, LightAndReliefScaleWithTheStrokes) {
         EXPECT_NEAR(to.layers[0].glow->halos[h].sigma * is_px, 2.5f * glow.halos[h].sigma * was_px, 1e-3);
     EXPECT_NEAR(to.layers[0].glow->cast_sigma * is_px, 2.5f * glow.cast_sigma * was_px, 1e-3);
     const Relief before, after = *to.layers[1].relief;
-    for (float Relief::* length :
+    for (float Relief::*length :
          {&Relief::tip_length_px, &Relief::radius_px, &Relief::gap_sigma_px, &Relief::shadow_length_px,
           &Relief::shadow_sigma_px, &Relief::contact_sigma_px, &Relief::drape_sigma_px})
         EXPECT_FLOAT_EQ(after.*length, 2.5f * before.*length);

@@ -43,5 +43,21 @@ TEST_F(SceneTest, AReplayGivesTheSameBytes) {
     EXPECT_TRUE(file_bytes(folder_ / "a.png") == file_bytes(folder_ / "b.png"));
 }
 
+TEST_F(SceneTest, PaintingALargeBackgroundCountsAsMemory) {
+    write_picture(folder_ / "wide.png", flat({2048, 2048}, {120, 150, 90, 255}));
+    const Words words{"in.png", "a.png", "--background", "wide.png",     "--place", "0.1,0.1,0.5,0.5",
+                      "--size", "100",   "--dry-run",    "--max-memory", "512M"};
+    expect_error(draw(words), 2, {"in.png", "GiB", "smaller background", "scene.painted=0"});
+    Words unpainted = words;
+    unpainted.insert(unpainted.end(), {"--set", "scene.painted=0"});
+    EXPECT_EQ(draw(unpainted).exit_code, 0);
+}
+
+TEST_F(SceneTest, ASkeletonIsOfTheDrawingAloneWithOrWithoutAPlace) {
+    placed("a.png", {"-o", "placed.json", "--no-recipe"});
+    expect_done(draw({"in.png", "alone.json", "--no-recipe"}));
+    EXPECT_TRUE(file_bytes(folder_ / "placed.json") == file_bytes(folder_ / "alone.json"));
+}
+
 }  // namespace
 }  // namespace dstylize::test

@@ -44,7 +44,8 @@ TEST_P(Documented, EveryCommandDraws) {
         const test::TempFolder folder;
         // `write` needs no picture: what it names is ours.
         for (std::size_t k = 0; k < words.size(); ++k)
-            if (words[k].starts_with("samples/") || (k == 0 && words[0] != "write")) words[k] = on_this_machine(words[k]);
+            if (words[k].starts_with("samples/") || (k == 0 && words[0] != "write"))
+                words[k] = on_this_machine(words[k]);
         words.insert(words.end(), {"--detail", "96", "--size", "120"});
         const test::Outcome outcome = test::dstylize(words, folder.path());
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

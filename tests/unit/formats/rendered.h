@@ -77,14 +77,13 @@ inline Picture read_png(const std::string& path) {
 
 /// Straight-alpha pixels as a PNG file.
 inline std::vector<std::byte> png_file(const Picture& picture) {
-    cairo_surface_t* surface =
-        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, picture.extent().x, picture.extent().y);
+    cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, picture.extent().x, picture.extent().y);
     for (int y = 0; y < picture.extent().y; ++y)
         for (int x = 0; x < picture.extent().x; ++x) {
             const Rgba8 p = picture(x, y);
             const auto premultiplied = [&](std::uint8_t c) { return std::uint32_t((c * p.a + 127) / 255); };
-            const std::uint32_t v = std::uint32_t(p.a) << 24 | premultiplied(p.r) << 16 | premultiplied(p.g) << 8 |
-                                    premultiplied(p.b);
+            const std::uint32_t v =
+                std::uint32_t(p.a) << 24 | premultiplied(p.r) << 16 | premultiplied(p.g) << 8 | premultiplied(p.b);
             std::memcpy(cairo_image_surface_get_data(surface) + y * cairo_image_surface_get_stride(surface) + 4 * x, &v,
                         4);
         }
