@@ -157,7 +157,8 @@ std::optional<Result> result(const Style& style) {
 
 /// Tested one by one below.
 constexpr std::array kNeedMoreThanAPicture{"fields.calm_detail", "fields.calm_scale",  "fields.calm_tone",
-                                           "root.every_part",    "root.smallest_part", "stage.name"};
+                                           "root.every_part",    "root.smallest_part", "stage.name",
+                                           "vine.leaf_at_least"};
 
 class EveryParameter : public ::testing::TestWithParam<std::string> {};
 
