@@ -53,6 +53,12 @@ const Grid<float>& Fields::operator[](std::string_view name) {
 
 void Fields::replace(std::string_view name, Grid<float> field) { cache_[row_of(name)] = std::move(field); }
 
+void Fields::share(const Fields& other) {
+    for (const std::string_view name :
+         {"luma", "lightness", "darkness", "tone", "gradient", "lines", "importance", "features"})
+        cache_[row_of(name)] = other.cache_[row_of(name)];
+}
+
 const FlowField& Fields::flow() {
     if (!flow_) flow_ = field::flow(*this);
     return *flow_;

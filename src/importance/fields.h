@@ -88,6 +88,10 @@ class Fields {
     /// Puts another field in the place of the one called `name`: `lacking` changes as a drawing grows.
     void replace(std::string_view name, Grid<float> field);
 
+    /// Takes over what `other`, the same picture with the same parameters and another seed, has computed so far
+    /// of the fields that no chance enters.
+    void share(const Fields& other);
+
     static std::span<const std::string_view> names();
     static std::string_view meaning(std::string_view name);
 

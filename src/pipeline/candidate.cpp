@@ -129,6 +129,7 @@ Candidate best_candidate(const Picture& picture, const Style& style, const Contr
     const int growths = controls.endpoints.empty() ? style.choice.growths : 1;
     PreparedPicture first = prepared_picture(picture, style, controls, work);
     if (growths == 1) return candidate(std::move(first), style, controls, picture.extent(), work);
+    for (const char* needed_by_all : {"importance", "features"}) first.fields[needed_by_all];
     std::vector<std::optional<Candidate>> all(static_cast<std::size_t>(growths));
     std::vector<double> score(all.size());
     tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {

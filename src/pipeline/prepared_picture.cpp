@@ -97,6 +97,7 @@ PreparedPicture prepared_picture(const Picture& picture, const Style& style, con
     if (controls.no_picture) luma = Grid<float>(luma.extent(), 0.5f);
     Fields fields(placed(luma, scale.extent, style.lattice), style.fields, std::move(maps), controls.seed,
                   scale.nodes_per_u);
+    if (other) fields.share(other->fields);
     Grid<std::uint8_t> passable = passable_nodes(picture, style, controls, fields);
     const bool same_ground = other && std::equal(passable.begin(), passable.end(), other->passable.begin());
     Lattice lattice = same_ground ? other->lattice : laid_lattice(passable, style.lattice, controls.seed, work);

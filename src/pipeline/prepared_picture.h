@@ -10,8 +10,8 @@ struct PreparedPicture {
     Lattice lattice;
     Grid<std::uint8_t> passable;
 };
-/// `other`: null, or the same picture prepared for another seed, whose lattice is then shared where the same nodes
-/// are passable.
+/// `other`: null, or the same picture prepared for another seed, whose fields are shared where no chance enters
+/// them, and whose lattice is where the same nodes are passable.
 PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
                                  const Work& work = {}, const PreparedPicture* other = nullptr);
 
