@@ -38,6 +38,22 @@ struct ShapeLayer {
 
 ShapeLayer shape_layer(const Layer& layer, float tolerance_px);
 
+/// Shows every layer of the list in order, and where a group of layers begins and ends that is mixed with its
+/// ground as one: those between two glowing ones, unless the list's mixing is `over`.
+template <class Begin, class Show, class End>
+void visit_layers(const DisplayList& list, float tolerance_px, Begin begin_group, Show show, End end_group) {
+    bool in_group = false;
+    for (const Layer& layer : list.layers) {
+        const ShapeLayer shapes = shape_layer(layer, tolerance_px);
+        const bool grouped = list.mixing != Mixing::over && !shapes.light;
+        if (grouped && !in_group) begin_group();
+        if (!grouped && in_group) end_group();
+        in_group = grouped;
+        show(shapes);
+    }
+    if (in_group) end_group();
+}
+
 /// How far shapes may leave the list: 0.05 u, but at least a 1/100 pixel, which is what is written.
 float shape_tolerance_px(const DisplayList& list);
 

@@ -86,25 +86,16 @@ cairo_operator_t cairo_operator(Mixing mixing) {
     return CAIRO_OPERATOR_OVER;
 }
 
-/// All layers; those between two glowing ones are one group where the list mixes with its ground.
 void paint_layers(cairo_t* context, const DisplayList& list, float tolerance) {
-    bool in_group = false;
-    const auto set_group = [&](bool wanted) {
-        if (wanted && !in_group) cairo_push_group(context);
-        if (!wanted && in_group) {
+    visit_layers(
+        list, tolerance, [&] { cairo_push_group(context); },
+        [&](const ShapeLayer& layer) { paint_layer(context, layer); },
+        [&] {
             cairo_pop_group_to_source(context);
             cairo_set_operator(context, cairo_operator(list.mixing));
             cairo_paint(context);
             cairo_set_operator(context, CAIRO_OPERATOR_OVER);
-        }
-        in_group = wanted;
-    };
-    for (const Layer& layer : list.layers) {
-        const ShapeLayer shapes = shape_layer(layer, tolerance);
-        set_group(list.mixing != Mixing::over && !shapes.light);
-        paint_layer(context, shapes);
-    }
-    set_group(false);
+        });
 }
 
 /// The picture, stretched over the page.

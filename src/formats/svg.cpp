@@ -127,20 +127,12 @@ class SvgWriter {
         head(list, info);
         metadata(info);
         paper(list, info);
-        const float tolerance = shape_tolerance_px(list);
-        bool in_group = false;
-        const auto set_group = [&](bool wanted) {
-            if (wanted && !in_group)
+        visit_layers(
+            list, shape_tolerance_px(list),
+            [&] {
                 open_group("drawing", "drawing", fmt::format(" style=\"mix-blend-mode:{}\"", css_name(list.mixing)));
-            if (!wanted && in_group) out_ += "</g>\n";
-            in_group = wanted;
-        };
-        for (const Layer& l : list.layers) {
-            const ShapeLayer shapes = shape_layer(l, tolerance);
-            set_group(list.mixing != Mixing::over && !shapes.light);
-            layer(shapes);
-        }
-        set_group(false);
+            },
+            [&](const ShapeLayer& shapes) { layer(shapes); }, [&] { out_ += "</g>\n"; });
         if (!info.cover_png.empty()) locked_picture("foreground", list, info.cover_png);
         out_ += "</svg>\n";
         return std::move(out_);

@@ -86,6 +86,16 @@ Derivatives derivatives(const Grid<float>& field) {
     return d;
 }
 
+StructureTensor structure_tensor(const Derivatives& d) {
+    StructureTensor t{d.x, d.x, d.y};
+    for (std::size_t n = 0; n < d.x.size(); ++n) {
+        t.xx[n] = d.x[n] * d.x[n];
+        t.xy[n] = d.x[n] * d.y[n];
+        t.yy[n] = d.y[n] * d.y[n];
+    }
+    return t;
+}
+
 Grid<float> gradient_magnitude(const Grid<float>& field) {
     Derivatives d = derivatives(field);
     for (std::size_t n = 0; n < d.x.size(); ++n) d.x[n] = std::sqrt(d.x[n] * d.x[n] + d.y[n] * d.y[n]);

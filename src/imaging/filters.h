@@ -15,6 +15,12 @@ struct Derivatives {
     Grid<float> x, y;
 };
 Derivatives derivatives(const Grid<float>& field);
+/// The products of the derivatives: a symmetric 2x2 tensor per node. Blurred, its eigenvectors are the local
+/// orientation.
+struct StructureTensor {
+    Grid<float> xx, xy, yy;
+};
+StructureTensor structure_tensor(const Derivatives& derivatives);
 /// The value below which `percent` of the samples lie, to 1/65536 of their range.
 float percentile(const Grid<float>& field, float percent);
 /// Every sample replaced by the share of samples that are smaller, in [0, 1).

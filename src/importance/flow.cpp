@@ -9,23 +9,8 @@
 namespace dstylize::field {
 namespace {
 
-/// A symmetric 2x2 tensor per node.
-struct TensorField {
-    Grid<float> xx, xy, yy;
-};
-
-TensorField structure_tensor(const Derivatives& d) {
-    TensorField t{d.x, d.x, d.y};
-    for (std::size_t n = 0; n < d.x.size(); ++n) {
-        t.xx[n] = d.x[n] * d.x[n];
-        t.xy[n] = d.x[n] * d.y[n];
-        t.yy[n] = d.y[n] * d.y[n];
-    }
-    return t;
-}
-
 /// sum += weight * (t blurred) / max(its trace, the trace's given percentile).
-void add_normalised(TensorField& sum, const TensorField& t, float sigma, float weight, float trace_percent) {
+void add_normalised(StructureTensor& sum, const StructureTensor& t, float sigma, float weight, float trace_percent) {
     const Grid<float> xx = blurred(t.xx, sigma), xy = blurred(t.xy, sigma), yy = blurred(t.yy, sigma);
     Grid<float> trace = xx;
     for (std::size_t n = 0; n < trace.size(); ++n) trace[n] += yy[n];
@@ -45,8 +30,8 @@ FlowField flow(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     const float u = fields.u();
     const Grid<float> zero(fields.extent());
-    TensorField sum{zero, zero, zero};
-    const TensorField t = structure_tensor(derivatives(blurred(fields["lightness"], 1.5f * u)));
+    StructureTensor sum{zero, zero, zero};
+    const StructureTensor t = structure_tensor(derivatives(blurred(fields["lightness"], 1.5f * u)));
     add_normalised(sum, t, p.flow_fine * u, 1, 60);
     add_normalised(sum, t, p.flow_coarse * u, p.flow_coarse_share, 30);
     if (p.flow_swirl > 0) {

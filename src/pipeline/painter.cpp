@@ -43,14 +43,8 @@ float difference(Rgba a, Rgba b) { return (std::abs(a.r - b.r) + std::abs(a.g - 
 
 /// Unit vectors along the picture's structures: the smaller eigenvector of the smoothed structure tensor.
 Grid<Vec2f> structure(const Picture& picture, float sigma) {
-    const Derivatives d = derivatives(blurred(luma_plane(picture), 0.8f));
-    Grid<float> xx(picture.extent()), yy(picture.extent()), xy(picture.extent());
-    for (std::size_t n = 0; n < xx.size(); ++n) {
-        xx[n] = d.x[n] * d.x[n];
-        yy[n] = d.y[n] * d.y[n];
-        xy[n] = d.x[n] * d.y[n];
-    }
-    xx = blurred(xx, sigma), yy = blurred(yy, sigma), xy = blurred(xy, sigma);
+    const StructureTensor t = structure_tensor(derivatives(blurred(luma_plane(picture), 0.8f)));
+    const Grid<float> xx = blurred(t.xx, sigma), xy = blurred(t.xy, sigma), yy = blurred(t.yy, sigma);
     Grid<Vec2f> out(picture.extent());
     for (std::size_t n = 0; n < out.size(); ++n) {
         const float across = 0.5f * std::atan2(2 * xy[n], xx[n] - yy[n]);

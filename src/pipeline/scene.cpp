@@ -1,7 +1,6 @@
 #include "pipeline/scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "imaging/filters.h"
 #include "pipeline/painter.h"
@@ -16,10 +15,7 @@ constexpr int kMostGround_px = 4096, kMostPainted_px = 2048;
 /// The size at which a background is worked on.
 Extent ground_extent(Extent background, const SceneParameters& parameters) {
     const int most = parameters.painted > 0 ? kMostPainted_px : kMostGround_px;
-    if (background.long_side() <= most) return background;
-    const double k = double(most) / background.long_side();
-    const auto side = [k](int px) { return std::max(1, int(std::lround(px * k))); };
-    return {side(background.x), side(background.y)};
+    return background.long_side() <= most ? background : lattice_extent(background, most);
 }
 
 }  // namespace

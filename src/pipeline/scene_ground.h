@@ -6,7 +6,7 @@
 
 namespace dstylize {
 
-/// What a scene's ground is made of. `px_per_list` is the ground's pixels for each of the list's.
+// Below, `px_per_list` is how many of the ground's pixels go to one of the scene's frame.
 
 /// Lays the shadow that the drawing casts, and the darkness around its feet. `drawing` is in its own frame.
 void shade_ground(Picture& ground, float px_per_list, const DisplayList& drawing, const std::vector<Foot>& feet,

@@ -19,8 +19,7 @@
 namespace dstylize {
 namespace {
 
-/// Visits every parameter under its full key ("stage.tone.carry"), in order; those of one stage rule like
-/// another's ("stage.carry").
+/// Names every change that can be tried by the parameter's key; all stages share theirs ("stage.carry").
 class KeyedVisitor : public ParameterVisitor {
   public:
     void number(ParameterDoc doc, float& value, float lo, float hi) override {
