@@ -303,7 +303,7 @@ class Run {
     std::vector<std::vector<std::byte>> shown_files() {
         Picture picture;
         try {
-            picture = shown(request_.show, input_.picture, style_, controls_, part(work_, 0.08, 0.85));
+            picture = shown({request_.show}, input_.picture, style_, controls_, part(work_, 0.08, 0.85)).front();
         } catch (const Error& error) {
             rethrow_named(error);
         }

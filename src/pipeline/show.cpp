@@ -137,31 +137,61 @@ std::vector<std::string> shown_names(const Style& style) {
     return out;
 }
 
-Picture shown(const std::string& name, const Picture& picture, const Style& style, const Controls& controls,
-              const Work& work) {
+namespace {
+
+/// `view` or `view:stage`; without a stage the last one's.
+struct StageName {
+    std::string view, stage;
+};
+StageName stage_name(const std::string& name, const Style& style) {
+    const std::size_t colon = name.find(':');
+    if (colon == std::string::npos) return {name, style.stages.back().name};
+    return {name.substr(0, colon), name.substr(colon + 1)};
+}
+
+bool needs_growth(const std::string& name) {
+    return std::find(kStageViews.begin(), kStageViews.end(), name.substr(0, name.find(':'))) != kStageViews.end();
+}
+
+void refuse_unknown(const std::vector<std::string>& names, const Style& style) {
     const std::vector<std::string> known = shown_names(style);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
-                    fmt::format("use one of {}", fmt::join(known, ", ")));
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
+                        fmt::format("use one of {}", fmt::join(known, ", ")));
+}
+
+}  // namespace
+
+std::vector<Picture> shown(const std::vector<std::string>& names, const Picture& picture, const Style& style,
+                           const Controls& controls, const Work& work) {
+    refuse_unknown(names, style);
+    std::vector<Picture> out(names.size());
     PreparedPicture base = prepared_picture(picture, style, controls, work);
-    if (name == "flow") return flow_picture(base.fields.flow());
-    const std::string view = name.substr(0, name.find(':'));
-    const std::string stage_name = view == name ? style.stages.back().name : name.substr(view.size() + 1);
-    if (std::find(kStageViews.begin(), kStageViews.end(), view) == kStageViews.end())
-        return field_picture(base.fields[name]);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        if (names[k] == "flow")
+            out[k] = flow_picture(base.fields.flow());
+        else if (!needs_growth(names[k]))
+            out[k] = field_picture(base.fields[names[k]]);
+    }
+    if (std::none_of(names.begin(), names.end(), needs_growth)) return out;
 
     Controls chosen = controls;
     if (style.choice.growths > 1) {
         chosen.seed = best_candidate(picture, style, controls, work).seed;
         base = prepared_picture(picture, style, chosen, work, &base);
     }
-    std::optional<Picture> out;
     const auto observe = [&](const StageView& stage) {
-        if (stage.stage.name == stage_name && view != "tree") out = stage_picture(view, stage);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const StageName wanted = stage_name(names[k], style);
+            if (needs_growth(names[k]) && wanted.view != "tree" && wanted.stage == stage.stage.name)
+                out[k] = stage_picture(wanted.view, stage);
+        }
     };
     const Grown grown = grow(base, style, chosen, picture.extent(), observe, work);
-    if (out) return *out;
-    return tree_picture(base.lattice, grown.dendrite);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (out[k].empty()) out[k] = tree_picture(base.lattice, grown.dendrite);
+    return out;
 }
 
 }  // namespace dstylize

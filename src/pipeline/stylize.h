@@ -41,9 +41,9 @@ Drawing stylize(const Picture& picture, const Style& style, const Controls& cont
 /// What `--show NAME` can show beside the fields.
 std::vector<std::string> shown_names(const Style& style);
 
-/// Any intermediate of the same run as a picture at the lattice's size: a field, `flow`, or `weights`,
-/// `endpoints`, `distance`, `owners`, `tree`, each of a stage (`weights:tone`; the last by default).
-Picture shown(const std::string& name, const Picture& picture, const Style& style, const Controls& controls,
-              const Work& work = {});
+/// Intermediates of one run as pictures at the lattice's size, in the names' order: fields, `flow`, or
+/// `weights`, `endpoints`, `distance`, `owners`, `tree`, each of a stage (`weights:tone`; the last by default).
+std::vector<Picture> shown(const std::vector<std::string>& names, const Picture& picture, const Style& style,
+                           const Controls& controls, const Work& work = {});
 
 }  // namespace dstylize

@@ -137,11 +137,12 @@ TEST_P(EveryStyle, HalfTheDetailIsAnHonestPreview) {
 TEST_P(EveryStyle, EveryIntermediateCanBeShown) {
     const Picture picture = test::scene({120, 90});
     const Style s = style(100);
-    for (const std::string& name : shown_names(s)) {
-        const Picture p = shown(name, picture, s, {});
-        EXPECT_EQ(p.extent(), (Extent{100, 75})) << name;
-    }
-    EXPECT_THROW(shown("nothing", picture, s, {}), Error);
+    const std::vector<std::string> names = shown_names(s);
+    const std::vector<Picture> pictures = shown(names, picture, s, {});
+    ASSERT_EQ(pictures.size(), names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(pictures[k].extent(), (Extent{100, 75})) << names[k];
+    EXPECT_EQ(shown({"tree"}, picture, s, {}).front(), pictures.back()) << "one of many is the one alone";
+    EXPECT_THROW(shown({"nothing"}, picture, s, {}), Error);
 }
 
 TEST(Vine, TheDrawnToneFollowsThePicture) {
