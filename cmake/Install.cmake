@@ -12,7 +12,7 @@ install(TARGETS dstylize EXPORT dstylize-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ${header_rules})
 install(TARGETS dstylize_program DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS dstylize-codec DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dstylize)
+install(TARGETS dstylize-codec dstylize-codec-module DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dstylize)
 
 install(EXPORT dstylize-targets NAMESPACE dstylize:: DESTINATION ${package_dir})
 file(WRITE ${PROJECT_BINARY_DIR}/dstylize-config.cmake

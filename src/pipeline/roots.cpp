@@ -134,9 +134,15 @@ NodeId passable_near(const WeightedLattice& graph, NodeId start, float radius) {
 PassableParts passable_parts(const WeightedLattice& graph) {
     const Lattice& lattice = graph.lattice;
     PassableParts out{Grid<std::uint32_t>(lattice.extent(), PassableParts::kNone), {}};
+    const Adjacency* listed = lattice.adjacency();
     // A knight's move never joins what the other steps do not.
-    const int regular_steps = std::min(8, int(lattice.steps().size()));
+    const auto steps = lattice.steps().first(std::min<std::size_t>(8, lattice.steps().size()));
     std::vector<NodeId> open;
+    const auto reach = [&](NodeId next, std::uint32_t part) {
+        if (!graph.passable(next) || out.part[index(next)] != PassableParts::kNone) return;
+        out.part[index(next)] = part;
+        open.push_back(next);
+    };
     for (std::uint32_t n = 0; n < lattice.node_count(); ++n) {
         if (!graph.passable(NodeId{n}) || out.part[n] != PassableParts::kNone) continue;
         const auto part = std::uint32_t(out.size.size());
@@ -147,13 +153,16 @@ PassableParts passable_parts(const WeightedLattice& graph) {
             const NodeId node = open.back();
             open.pop_back();
             ++out.size[part];
-            const int steps = lattice.adjacency() ? graph.degree(node) : regular_steps;
-            for (int s = 0; s < steps; ++s) {
-                const NodeId next = graph.neighbour(node, s);
-                if (next == kNoNode || !graph.passable(next) || out.part[index(next)] != PassableParts::kNone) continue;
-                out.part[index(next)] = part;
-                open.push_back(next);
+            if (listed) {
+                const std::uint32_t end = listed->first[index(node) + 1];
+                for (std::uint32_t edge = listed->first[index(node)]; edge < end; ++edge)
+                    reach(NodeId{listed->to[edge]}, part);
+                continue;
             }
+            const int column = lattice.column(node), row = lattice.row(node);
+            for (const Step step : steps)
+                if (lattice.extent().contains(column + step.dx, row + step.dy))
+                    reach(lattice.at(column + step.dx, row + step.dy), part);
         }
     }
     return out;
