@@ -9,7 +9,10 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 #include "codec/module.h"
 
@@ -21,7 +24,10 @@ int main(int argument_count, char** arguments) {
         return 2;
     }
     for (const char* library : {DSTYLIZE_OPENED_FIRST}) dlopen(library, RTLD_LAZY | RTLD_LOCAL);
-    void* const module = dlopen(DSTYLIZE_CODEC_MODULE, RTLD_LAZY | RTLD_LOCAL);
+    std::error_code ignored;  // then the module is not found
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    const std::string beside = program.parent_path() / DSTYLIZE_CODEC_MODULE;
+    void* const module = dlopen(beside.c_str(), RTLD_LAZY | RTLD_LOCAL);
     void* const entry = module ? dlsym(module, "dstylize_codec") : nullptr;
     if (!entry) {
         std::fprintf(stderr, "dstylize-codec: %s; install dstylize again\n", dlerror());
