@@ -1,8 +1,12 @@
 #include "imaging/filters.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -23,8 +27,32 @@ Histogram histogram(const Grid<float>& field) {
     const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
     h.lo = *lo;
     h.scale = *hi > *lo ? float(kBins) / (*hi - *lo) : 0;
-    for (float v : field) ++h.count[std::size_t(h.bin(v))];
+    // Each band counts for itself. Two in turn: neighbours are alike, and a count that is just being written
+    // would have to be waited for.
+    constexpr std::size_t kBand = std::size_t{1} << 19;
+    const std::size_t bands = (field.size() + kBand - 1) / kBand;
+    std::vector<std::vector<std::uint32_t>> counts(2 * bands, std::vector<std::uint32_t>(kBins, 0));
+    tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
+        const std::size_t end = std::min(field.size(), (band + 1) * kBand);
+        for (std::size_t n = band * kBand; n < end; ++n) ++counts[2 * band + n % 2][std::size_t(h.bin(field[n]))];
+    });
+    for (const std::vector<std::uint32_t>& count : counts)
+        std::transform(count.begin(), count.end(), h.count.begin(), h.count.begin(), std::plus<>());
     return h;
+}
+
+/// cv::GaussianBlur in bands of rows at once. OpenCV reads beyond a band what lies there, so the bands do not show.
+void gaussian_blur(const cv::Mat& from, cv::Mat& to, double sigma) {
+    constexpr int kRows = 64;
+    const tbb::blocked_range<int> rows(0, from.rows, kRows);
+    tbb::parallel_for(
+        rows,
+        [&](const tbb::blocked_range<int>& band) {
+            cv::Mat part = to.rowRange(band.begin(), band.end());
+            cv::GaussianBlur(from.rowRange(band.begin(), band.end()), part, cv::Size(0, 0), sigma, sigma,
+                             cv::BORDER_REFLECT);
+        },
+        tbb::simple_partitioner());
 }
 
 }  // namespace
@@ -65,7 +93,7 @@ Grid<float> blurred(const Grid<float>& field, float sigma) {
     cv::Mat target = mat(out);
     constexpr float kWide = 8, kReducedSigma = 4;
     if (sigma <= kWide) {
-        cv::GaussianBlur(mat(field), target, cv::Size(0, 0), sigma, sigma, cv::BORDER_REFLECT);
+        gaussian_blur(mat(field), target, sigma);
         return out;
     }
     const float factor = sigma / kReducedSigma;
@@ -73,8 +101,9 @@ Grid<float> blurred(const Grid<float>& field, float sigma) {
     const cv::Size size(std::max(1, cvRound(float(field.extent().x) / factor)),
                         std::max(1, cvRound(float(field.extent().y) / factor)));
     cv::resize(mat(field), small, size, 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, cv::Size(0, 0), kReducedSigma, kReducedSigma, cv::BORDER_REFLECT);
-    cv::resize(small, target, target.size(), 0, 0, cv::INTER_LINEAR);
+    cv::Mat smooth(small.size(), small.type());
+    gaussian_blur(small, smooth, kReducedSigma);
+    cv::resize(smooth, target, target.size(), 0, 0, cv::INTER_LINEAR);
     return out;
 }
 

@@ -157,22 +157,5 @@ TEST(FlatFrame, AFlatBackgroundIsNoFrame) {
     EXPECT_EQ(flat_frame(luma_plane(test::flat({300, 200}, {255, 255, 255, 255}))), Frame{});
 }
 
-TEST(Filters, WideBlurOnAReducedCopyMeetsTheFullOne) {
-    Fields fields = fields_of(test::scene({300, 200}), {300, 200});
-    const Grid<float> direct = blurred(blurred(fields["luma"], 7), 7),
-                      wide = blurred(fields["luma"], 7 * std::sqrt(2.0f));
-    float worst = 0;
-    for (std::size_t n = 0; n < wide.size(); ++n) worst = std::max(worst, std::abs(direct[n] - wide[n]));
-    EXPECT_LT(worst, 0.03f);
-}
-
-TEST(Filters, RankAndPercentileAgree) {
-    Grid<float> ramp({100, 1});
-    for (int i = 0; i < 100; ++i) ramp(i, 0) = float((i * 37) % 100);
-    EXPECT_NEAR(percentile(ramp, 50), 50, 0.01f);
-    const Grid<float> r = rank(ramp);
-    for (int i = 0; i < 100; ++i) ASSERT_NEAR(r(i, 0), ramp(i, 0) / 100, 1e-6f);
-}
-
 }  // namespace
 }  // namespace dstylize
