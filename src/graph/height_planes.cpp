@@ -184,10 +184,11 @@ std::vector<float> pull_factors(const Lattice& lattice, Vec2f pull) {
     std::vector<float> factor;
     for (const Step s : lattice.steps()) factor.push_back(pull_factor({float(s.dx), float(s.dy)}, pull));
     if (const Adjacency* a = lattice.adjacency()) {
-        factor.reserve(a->to.size());
-        for (std::uint32_t u = 0; u < lattice.node_count(); ++u)
+        factor.resize(a->to.size());
+        tbb::parallel_for(std::uint32_t{0}, std::uint32_t(lattice.node_count()), [&](std::uint32_t u) {
             for (std::uint32_t e = a->first[u]; e < a->first[u + 1]; ++e)
-                factor.push_back(pull_factor(a->position_lattice[a->to[e]] - a->position_lattice[u], pull));
+                factor[e] = pull_factor(a->position_lattice[a->to[e]] - a->position_lattice[u], pull);
+        });
     }
     return factor;
 }

@@ -1,5 +1,7 @@
 // Noise fields. They live on a grid fixed to the picture, finer than most lattices, and every lattice
 // samples that one grid: half the detail is then an honest preview of the full one.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -41,8 +43,9 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
     const Extent cells{int(std::ceil(float(e.x) / nodes_per_cell)) + 1,
                        int(std::ceil(float(e.y) / nodes_per_cell)) + 1};
     Grid<float> coarse(cells);
-    for (int j = 0; j < cells.y; ++j)
+    tbb::parallel_for(0, cells.y, [&](int j) {
         for (int i = 0; i < cells.x; ++i) coarse(i, j) = noise.unit(std::uint64_t(j) << 32 | std::uint64_t(i)) - 0.5f;
+    });
     coarse = blurred(coarse, sigma_u / cell_u);
     // The blur of independent samples of variance 1/12 by a Gaussian has variance 1 / (12 * 4 pi sigma^2).
     const float deviation = std::sqrt(1 / (12 * 4 * 3.14159265f)) / (sigma_u / cell_u);
@@ -53,9 +56,9 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
     };
     std::vector<Between> column;
     for (int i = 0; i < e.x; ++i) column.push_back(between(i, cells.x));
-    std::vector<float> row(std::size_t(cells.x));
     Grid<float> out(e);
-    for (int j = 0; j < e.y; ++j) {
+    tbb::parallel_for(0, e.y, [&](int j) {
+        std::vector<float> row(std::size_t(cells.x));
         const Between at = between(j, cells.y);
         for (int c = 0; c < cells.x; ++c)
             row[std::size_t(c)] = (coarse(c, at.cell) * (1 - at.share) + coarse(c, at.cell + 1) * at.share) / deviation;
@@ -63,7 +66,7 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
             const auto [cell, share] = column[std::size_t(i)];
             out(i, j) = row[std::size_t(cell)] * (1 - share) + row[std::size_t(cell) + 1] * share;
         }
-    }
+    });
     return out;
 }
 

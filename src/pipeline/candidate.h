@@ -19,8 +19,8 @@ struct Candidate {
     std::uint64_t seed = 0;     ///< that it grew from
 };
 
-/// The best of several growths from seeds that follow from the run's: the one whose ink shows the picture best;
-/// the first of equals.
+/// The best of several growths from seeds that follow from the run's: the one whose ink, in a preview, shows the
+/// picture best; the first of equals.
 Candidate best_candidate(const Picture& picture, const Style& style, const Controls& controls, const Work& work);
 
 /// From the lattice frame to one where the strokes are drawn.

@@ -84,9 +84,10 @@ LatticeScale lattice_scale(Extent picture, const LatticeParameters& parameters, 
 }
 
 PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls, const Work& work,
-                                 const PreparedPicture* other) {
-    const LatticeScale scale =
-        lattice_scale(picture.extent(), style.lattice, controls.mask ? &*controls.mask : nullptr);
+                                 const PreparedPicture* other, float share_of_detail) {
+    LatticeParameters detailed = style.lattice;
+    detailed.detail = std::max(1, int(std::lround(share_of_detail * float(detailed.detail))));
+    const LatticeScale scale = lattice_scale(picture.extent(), detailed, controls.mask ? &*controls.mask : nullptr);
     UserMaps maps;
     if (controls.importance) maps.importance = placed(luma_plane(*controls.importance), scale.extent, style.lattice);
     maps.importance_replaces = controls.importance_replaces;

@@ -11,8 +11,9 @@ struct PreparedPicture {
     Grid<std::uint8_t> passable;
 };
 /// `other`: null, or the same picture prepared for another seed, whose fields are shared where no chance enters
-/// them, and whose lattice is where the same nodes are passable.
+/// them, and whose lattice is where the same nodes are passable. `share_of_detail`: below 1 for a preview.
 PreparedPicture prepared_picture(const Picture& picture, const Style& style, const Controls& controls,
-                                 const Work& work = {}, const PreparedPicture* other = nullptr);
+                                 const Work& work = {}, const PreparedPicture* other = nullptr,
+                                 float share_of_detail = 1);
 
 }  // namespace dstylize
