@@ -214,7 +214,7 @@ class Leafing {
         constexpr int kPasses = 16;
         for (int pass = 0; pass < kPasses; ++pass)
             for (const Vec2f at : holes(leafy_, 1)) fill(at, 1, Place::front);
-        constexpr float kLarge = 1.4f;
+        constexpr float kLarge = 1.6f;
         constexpr int kDense = 3;
         for (int enough = 1; enough <= kDense; ++enough)
             for (const Vec2f at : holes(shaded_, enough)) fill(at, kLarge, Place::behind);
