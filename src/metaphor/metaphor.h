@@ -22,6 +22,10 @@ struct Subject {
     const Picture* picture = nullptr;  ///< the input itself, at its own size; never null in a drawing
     /// Beside `strokes`, one value per point: the share of all tips that hang on it, in (0, 1].
     std::span<const std::vector<float>> tip_share = {};
+    /// Where the picture lies in the frame: its upper left corner, and its size as a share of the frame's.
+    Vec2f picture_corner_px = {};
+    float picture_scale = 1;
+    bool no_picture = false;  ///< nothing but the picture's size counts
 };
 
 /// How a dendrite is dressed: ink, vine, later lightning, lichen, bark. Its parameters are the table

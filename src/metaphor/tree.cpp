@@ -22,7 +22,13 @@ class Tree final : public Metaphor {
     DisplayList draw(const Subject& subject) const override {
         DisplayList list{subject.width_px, subject.height_px, {paper_, grain_, subject.seed}, {}};
         list.layers = bark_layers(subject, bark_);
-        if (foliage_.foliage > 0) list.layers.push_back(foliage_layer(subject, foliage_));
+        if (foliage_.foliage > 0) {
+            const float from = bark_.light_deg * 3.14159265f / 180;
+            Foliage leaves = foliage(subject, foliage_, {std::cos(from), std::sin(from)});
+            const auto front = list.layers.empty() ? list.layers.end() : list.layers.end() - 1;
+            list.layers.insert(front, std::move(leaves.behind));
+            list.layers.push_back(std::move(leaves.front));
+        }
         if (grass_ > 0) list.layers.push_back(grass(subject));
         return list;
     }

@@ -29,6 +29,12 @@ std::vector<std::vector<float>> tip_shares(const std::vector<Centreline>& lines,
     return out;
 }
 
+/// Upper left corner of the picture where it is set into the frame.
+Vec2f picture_corner(Extent frame, const LatticeParameters& p) {
+    return {(p.picture_x - 0.5f * p.picture_scale) * float(frame.x),
+            (p.picture_y - 0.5f * p.picture_scale) * float(frame.y)};
+}
+
 Drawing stylized(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     work.report("fields", 0);
     Candidate best = best_candidate(picture, style, controls, work);
@@ -57,7 +63,8 @@ Drawing stylized(const Picture& picture, const Style& style, const Controls& con
     for (float& w : out.width_u) w /= float(out.lattice.long_side()) / 1024;
     out.list = style.metaphor->draw({float(out.picture.x), float(out.picture.y), u * to.width_scale, to.width_scale,
                                      drawn, [&](std::string_view name) -> const Grid<float>& { return fields[name]; },
-                                     controls.seed, &picture, shares});
+                                     controls.seed, &picture, shares, picture_corner(out.picture, style.lattice),
+                                     style.lattice.picture_scale, controls.no_picture});
     return out;
 }
 
