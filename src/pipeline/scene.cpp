@@ -79,7 +79,7 @@ DisplayList in_scene(const Drawing& drawing, const Picture& background, const Bo
     ground = brushed(ground, float(ground.extent().long_side()) / 1024, parameters.painted, seed, work);
 
     DisplayList out = moved(drawing.list, to, background.extent());
-    match_colours(out, ground, px_per_list, box, parameters.match);
+    match_colours(out, ground, px_per_list, box, parameters);
     if (!roots.empty()) {
         shade_ground(ground, px_per_list, drawing.list, roots, to, parameters, work);
         out.cover = std::make_shared<Picture>(

@@ -77,9 +77,10 @@ float contact_at(Vec2f p, const std::vector<Foot>& feet) {
     return dark;
 }
 
-/// Luma and mean colours of the darkest and the lightest tenth of a part of a picture.
+/// Mean colours of the darkest and the lightest tenth of a part of a picture, and the median of its luma.
 struct Range {
     Rgba shadow, light;
+    float middle;
 };
 Range range(const Picture& ground, Vec2f corner, Vec2f size) {
     const auto x0 = std::clamp(int(corner.x), 0, ground.extent().x - 1),
@@ -101,7 +102,7 @@ Range range(const Picture& ground, Vec2f corner, Vec2f size) {
         const double whole = 255.0 * double(tenth);
         return Rgba{float(r / whole), float(g / whole), float(b / whole), 1};
     };
-    return {mean(0), mean(by_luma.size() - tenth)};
+    return {mean(0), mean(by_luma.size() - tenth), float(by_luma[by_luma.size() / 2].first) / 255'000};
 }
 
 /// The outline of blades before one foot: how far each column of the ground reaches up.
@@ -170,12 +171,15 @@ Picture foreground(const Picture& ground, float px_per_list, const DisplayList& 
     return out;
 }
 
-void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box, float match) {
+void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box,
+                   const SceneParameters& p) {
     constexpr float kAround = 0.15f;  // of the box, on every side
     const Vec2f margin = box.size_px * kAround;
     const Range to = range(ground, (box.corner_px - margin) * px_per_list, (box.size_px + 2 * margin) * px_per_list);
+    // On white paper the same ink stands out more than before a dark background.
+    const float dim = 1 - p.backlight * (1 - to.middle);
     const auto matched = [&](float c, float shadow, float light) {
-        return c + match * (shadow + c * (light - shadow) - c);
+        return dim * (c + p.match * (shadow + c * (light - shadow) - c));
     };
     for (Layer& layer : placed.layers) {
         if (layer.glow) continue;
@@ -183,9 +187,9 @@ void match_colours(DisplayList& placed, const Picture& ground, float px_per_list
             Rgba& c = std::visit([](auto& it) -> Rgba& { return it.colour; }, item);
             const auto* stroke = std::get_if<VariableStroke>(&item);
             if (layer.of_ground && stroke && !stroke->points_px.empty()) {
-                const Vec2f p = stroke->points_px[0] * px_per_list;
-                const Rgba8 g = ground(std::clamp(int(p.x), 0, ground.extent().x - 1),
-                                       std::clamp(int(p.y), 0, ground.extent().y - 1));
+                const Vec2f foot = stroke->points_px[0] * px_per_list;
+                const Rgba8 g = ground(std::clamp(int(foot.x), 0, ground.extent().x - 1),
+                                       std::clamp(int(foot.y), 0, ground.extent().y - 1));
                 const float light = 0.75f + luma(c);
                 const auto lit = [light](std::uint8_t v) { return std::min(1.0f, float(v) / 255 * light); };
                 c = {lit(g.r), lit(g.g), lit(g.b), c.a};

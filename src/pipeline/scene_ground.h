@@ -18,7 +18,9 @@ Picture foreground(const Picture& ground, float px_per_list, const DisplayList& 
                    const Placement& placement, float blades, std::uint64_t seed);
 
 /// Colours of the list between the shadows and the lights that the ground has around the box, by a share of
-/// `match`; layers that are of the ground get the ground's colours where they grow.
-void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box, float match);
+/// `match`, and by `backlight` darker the darker it is there; layers that are of the ground get the ground's colours
+/// where they grow.
+void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box,
+                   const SceneParameters& parameters);
 
 }  // namespace dstylize

@@ -96,6 +96,7 @@ struct SceneParameters {
     Mixing blend = Mixing::over;
     float painted = 0.5f;
     float match = 0.5f;
+    float backlight = 0;
     bool stands = false;
     float contact = 0.6f;
     float shadow = 0.5f;

@@ -105,6 +105,26 @@ TEST_P(SceneLaws, MatchingNothingChangesNoColour) {
     EXPECT_GT(moved, 50u) << "and matching does change them";
 }
 
+TEST_P(SceneLaws, BacklightOnlyDarkens) {
+    const Drawing drawing = drawing_of(GetParam());
+    SceneParameters p = plain();
+    p.backlight = 0;
+    const DisplayList as_it_was = in_land(drawing, p);
+    p.backlight = 1;
+    const DisplayList dark = in_land(drawing, p);
+    std::size_t darker = 0;
+    for (std::size_t l = 0; l < drawing.list.layers.size(); ++l) {
+        if (drawing.list.layers[l].of_ground) continue;
+        for (std::size_t i = 0; i < drawing.list.layers[l].items.size(); ++i) {
+            const float before = luma(colour(as_it_was.layers[l].items[i])),
+                        after = luma(colour(dark.layers[l].items[i]));
+            ASSERT_LE(after, before);
+            darker += after < 0.8f * before;
+        }
+    }
+    EXPECT_GT(darker, 50u);
+}
+
 TEST_P(SceneLaws, AnyNumberOfThreadsGivesTheSameScene) {
     const Drawing drawing = drawing_of(GetParam());
     SceneParameters p;
