@@ -97,6 +97,7 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
         }
         raw_[v] = raw_width(v, tone_width);
     }
+    trunk_ = trunk_widths();
     finish();
 }
 
@@ -208,19 +209,25 @@ void Widths::roll(std::vector<float>& values) const {
 
 /// Few thick limbs, many hairs. The picture's tone tempers the trunk: an even one through a bright
 /// cheek ruins the face.
-void Widths::raise_trunk() {
+std::vector<float> Widths::trunk_widths() const {
+    constexpr float kToneWindow_u = 5;
     const WidthParameters& p = parameters_;
-    const float widest = std::max(p.widest, p.trunk) * u_;
-    const Grid<float> tone = blurred(fields_.tone, 5 * u_);
-    for (std::uint32_t v = 0; v < widths_.size(); ++v) {
-        if (p.trunk > 0) {
-            const float share = std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent);
-            const float tempered =
-                p.trunk_least_tone + (1 - p.trunk_least_tone) * sample(tone, dendrite_.position_lattice[v]);
-            widths_[v] = std::max(widths_[v], p.trunk * u_ * share * tempered);
-        }
-        widths_[v] = std::min(widths_[v], widest);
+    if (p.trunk <= 0) return {};
+    const Grid<float> tone = blurred(fields_.tone, kToneWindow_u * u_);
+    std::vector<float> out(dendrite_.size());
+    for (std::uint32_t v = 0; v < out.size(); ++v) {
+        const float share = std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent);
+        const float tempered =
+            p.trunk_least_tone + (1 - p.trunk_least_tone) * sample(tone, dendrite_.position_lattice[v]);
+        out[v] = p.trunk * u_ * share * tempered;
     }
+    return out;
+}
+
+void Widths::raise_trunk() {
+    for (std::size_t v = 0; v < trunk_.size(); ++v) widths_[v] = std::max(widths_[v], trunk_[v]);
+    const float widest = std::max(parameters_.widest, parameters_.trunk) * u_;
+    for (float& width : widths_) width = std::min(width, widest);
 }
 
 void Widths::cap_at_junctions() {

@@ -67,6 +67,7 @@ class Widths {
     float swing(std::uint32_t v, float width) const;
     void finish();
     void roll(std::vector<float>& values) const;
+    std::vector<float> trunk_widths() const;
     void raise_trunk();
     void cap_at_junctions();
     void taper_tips();
@@ -79,6 +80,7 @@ class Widths {
     Grid<float> target_ink_;
     std::vector<float> path_share_;  ///< V of every node, empty when no width follows it
     std::vector<float> pipe_;        ///< empty without the pipe rule
+    std::vector<float> trunk_;       ///< least width of every node, empty without a trunk
     std::vector<float> raw_, widths_;
 };
 
