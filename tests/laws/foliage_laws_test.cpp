@@ -9,6 +9,7 @@
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 #include "render/raster.h"
+#include "support/quick_style.h"
 #include "support/scenes.h"
 
 namespace dstylize {
@@ -24,7 +25,7 @@ Drawing autumn(const Picture& picture, const std::vector<Setting>& settings, boo
     all.insert(all.end(), settings.begin(), settings.end());
     Controls controls;
     controls.no_picture = no_picture;
-    return stylize(picture, load_style("autumn", all), controls);
+    return stylize(picture, test::quick_style("autumn", all), controls);
 }
 
 std::vector<Fill> leaves(const Drawing& drawing, std::string_view layer) {

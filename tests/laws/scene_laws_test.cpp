@@ -11,6 +11,7 @@
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 #include "render/raster.h"
+#include "support/quick_style.h"
 #include "support/scenes.h"
 
 namespace dstylize {
@@ -32,7 +33,7 @@ Picture land() {
 }
 
 Drawing drawing_of(const std::string& style) {
-    return stylize(test::scene(kSize), load_style(style, {{"lattice.detail", "160"}}), {});
+    return stylize(test::scene(kSize), test::quick_style(style, {{"lattice.detail", "160"}}), {});
 }
 
 /// Everything off: the drawing on the background as it is.

@@ -11,6 +11,7 @@
 #include "pipeline/style_file.h"
 #include "pipeline/stylize.h"
 #include "render/raster.h"
+#include "support/quick_style.h"
 #include "support/scenes.h"
 
 namespace dstylize {
@@ -19,7 +20,7 @@ namespace {
 class EveryStyle : public ::testing::TestWithParam<std::string> {
   protected:
     static Style style(int detail = 200) {
-        return load_style(GetParam(), {{"lattice.detail", std::to_string(detail)}});
+        return test::quick_style(GetParam(), {{"lattice.detail", std::to_string(detail)}});
     }
     static Drawing drawing(const Picture& picture, const Controls& controls = {}, int threads = 0) {
         Work work;
