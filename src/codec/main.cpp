@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -23,7 +24,8 @@ int main(int argument_count, char** arguments) {
         std::fputs("dstylize-codec: is started by dstylize to decode and encode pictures\n", stderr);
         return 2;
     }
-    for (const char* library : {DSTYLIZE_OPENED_FIRST}) dlopen(library, RTLD_LAZY | RTLD_LOCAL);
+    for (const char* library : std::initializer_list<const char*>{DSTYLIZE_OPENED_FIRST})
+        dlopen(library, RTLD_LAZY | RTLD_LOCAL);
     std::error_code ignored;  // then the module is not found
     const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored);
     const std::string beside = program.parent_path() / DSTYLIZE_CODEC_MODULE;

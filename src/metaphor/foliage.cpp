@@ -75,6 +75,7 @@ class LeafColours {
     Tint own(Tint t, Vec2f at_px, float leads) const {
         if (subject_.no_picture || p_.own_hue <= 0) return t;
         constexpr int kReach = 1;  // samples to each side: a leaf has the mean colour of its place
+        constexpr float kSamples = (2 * kReach + 1) * (2 * kReach + 1);
         constexpr float kMostGain = 1.6f;
         const Vec2f middle = (at_px - subject_.picture_corner_px) * (1 / subject_.picture_scale);
         Rgba sum{0, 0, 0, 0};
@@ -82,7 +83,7 @@ class LeafColours {
             for (int i = -kReach; i <= kReach; ++i) {
                 const float apart = 0.33f * p_.leaf_size * subject_.u_px / subject_.picture_scale;
                 const Rgba8 p = sample(*subject_.picture, middle + Vec2f{float(i), float(j)} * apart);
-                const float share = float(p.a) / (255 * 9);
+                const float share = float(p.a) / (255 * kSamples);
                 sum.r += share * float(p.r) / 255, sum.g += share * float(p.g) / 255, sum.b += share * float(p.b) / 255;
                 sum.a += share;
             }
@@ -194,7 +195,7 @@ class Leafing {
 
     void along(const VariableStroke& twig) {
         const float u = subject_.u_px, gap = p_.leaf_size * u / std::max(0.01f, p_.foliage);
-        float way = gap * unit(noise_.bits(1u << 31 | count_));
+        float way = gap * noise_.unit(1u << 31 | count_);
         for (std::size_t k = 1; k < twig.points_px.size(); ++k) {
             const Vec2f step = twig.points_px[k] - twig.points_px[k - 1];
             way -= length(step);

@@ -9,7 +9,7 @@ struct FoliageParameters {
     float leaf_size = 9, leaf_aspect = 0.5f;
     float leaf_twig = 3;  ///< only twigs thinner than this bear leaves
     float leaf_fill = 0.9f;
-    float boughs_seen = 0.6f;  ///< share of the leaves before a bough that are left out
+    float boughs_seen = 0.6f;  ///< share of the leaves before a bough that lie behind it instead
     Rgba leaf_light{0xf0 / 255.0f, 0xc8 / 255.0f, 0x62 / 255.0f, 1};
     Rgba leaf_middle{0xb4 / 255.0f, 0x5c / 255.0f, 0x1e / 255.0f, 1};
     Rgba leaf_dark{0x5a / 255.0f, 0x26 / 255.0f, 0x10 / 255.0f, 1};

@@ -78,7 +78,7 @@ Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
 
 Candidate candidate(PreparedPicture base, const Style& style, const Controls& controls, Extent picture_px,
                     const Work& work) {
-    Candidate c{std::move(base), {}, {}, {}, {}, controls.seed};
+    Candidate c{std::move(base), {}, {}, {}, {}};
     Fields& fields = c.base.fields;
     const float u = fields.u();
     c.grown = grow(c.base, style, controls, picture_px, {}, work);
@@ -122,10 +122,12 @@ double resemblance(Candidate& c, float window) {
     return spread > 0 ? (n * xy - x * y) / std::sqrt(spread) : 0;
 }
 
-/// The seed of the best of several growths. They are compared at half the detail, which ranks them much as the
-/// whole does, at a quarter of the cost.
+}  // namespace
+
 std::uint64_t best_seed(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
+    // Half the detail ranks growths much as the whole does, at a quarter of the cost.
     constexpr float kPreview = 0.5f;
+    if (style.choice.growths == 1 || !controls.endpoints.empty()) return controls.seed;
     PreparedPicture first = prepared_picture(picture, style, controls, work, nullptr, kPreview);
     for (const char* needed_by_all : {"importance", "features"}) first.fields[needed_by_all];
     std::vector<double> score(static_cast<std::size_t>(style.choice.growths));
@@ -141,11 +143,9 @@ std::uint64_t best_seed(const Picture& picture, const Style& style, const Contro
     return growth_seed(controls.seed, int(std::max_element(score.begin(), score.end()) - score.begin()));
 }
 
-}  // namespace
-
 Candidate best_candidate(const Picture& picture, const Style& style, const Controls& controls, const Work& work) {
     Controls chosen = controls;
-    if (style.choice.growths > 1 && controls.endpoints.empty()) chosen.seed = best_seed(picture, style, controls, work);
+    chosen.seed = best_seed(picture, style, controls, work);
     return candidate(prepared_picture(picture, style, chosen, work), style, chosen, picture.extent(), work);
 }
 

@@ -16,11 +16,12 @@ struct Candidate {
     Branching branching;
     std::vector<Centreline> lines;
     std::vector<float> widths;  ///< per node of the dendrite, in lattice steps
-    std::uint64_t seed = 0;     ///< that it grew from
 };
 
-/// The best of several growths from seeds that follow from the run's: the one whose ink, in a preview, shows the
-/// picture best; the first of equals.
+/// The seed of the best of several growths, from seeds that follow from the run's: the one whose ink, in a preview,
+/// shows the picture best; the first of equals. With one growth, or with endpoints given, the run's own.
+std::uint64_t best_seed(const Picture& picture, const Style& style, const Controls& controls, const Work& work);
+/// The growth from that seed.
 Candidate best_candidate(const Picture& picture, const Style& style, const Controls& controls, const Work& work);
 
 /// From the lattice frame to one where the strokes are drawn.

@@ -139,58 +139,52 @@ std::vector<std::string> shown_names(const Style& style) {
 
 namespace {
 
-/// `view` or `view:stage`; without a stage the last one's.
-struct StageName {
+/// What a name asks for: `view` or `view:stage`, without a stage the last one's.
+struct Wanted {
     std::string view, stage;
+    bool is_of_growth() const { return std::find(kStageViews.begin(), kStageViews.end(), view) != kStageViews.end(); }
 };
-StageName stage_name(const std::string& name, const Style& style) {
-    const std::size_t colon = name.find(':');
-    if (colon == std::string::npos) return {name, style.stages.back().name};
-    return {name.substr(0, colon), name.substr(colon + 1)};
-}
 
-bool needs_growth(const std::string& name) {
-    return std::find(kStageViews.begin(), kStageViews.end(), name.substr(0, name.find(':'))) != kStageViews.end();
-}
-
-void refuse_unknown(const std::vector<std::string>& names, const Style& style) {
+std::vector<Wanted> all_wanted(const std::vector<std::string>& names, const Style& style) {
     const std::vector<std::string> known = shown_names(style);
-    for (const std::string& name : names)
+    std::vector<Wanted> out;
+    for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) == known.end())
             throw Error(ErrorCode::bad_usage, "", "--show " + name + ": no such stage",
                         fmt::format("use one of {}", fmt::join(known, ", ")));
+        const std::size_t colon = name.find(':');
+        out.push_back(
+            {name.substr(0, colon), colon == std::string::npos ? style.stages.back().name : name.substr(colon + 1)});
+    }
+    return out;
 }
 
 }  // namespace
 
 std::vector<Picture> shown(const std::vector<std::string>& names, const Picture& picture, const Style& style,
                            const Controls& controls, const Work& work) {
-    refuse_unknown(names, style);
+    const std::vector<Wanted> wanted = all_wanted(names, style);
     std::vector<Picture> out(names.size());
     PreparedPicture base = prepared_picture(picture, style, controls, work);
-    for (std::size_t k = 0; k < names.size(); ++k) {
-        if (names[k] == "flow")
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        if (wanted[k].view == "flow")
             out[k] = flow_picture(base.fields.flow());
-        else if (!needs_growth(names[k]))
-            out[k] = field_picture(base.fields[names[k]]);
+        else if (!wanted[k].is_of_growth())
+            out[k] = field_picture(base.fields[wanted[k].view]);
     }
-    if (std::none_of(names.begin(), names.end(), needs_growth)) return out;
+    if (std::none_of(wanted.begin(), wanted.end(), [](const Wanted& w) { return w.is_of_growth(); })) return out;
 
     Controls chosen = controls;
-    if (style.choice.growths > 1) {
-        chosen.seed = best_candidate(picture, style, controls, work).seed;
-        base = prepared_picture(picture, style, chosen, work, &base);
-    }
+    chosen.seed = best_seed(picture, style, controls, work);
+    if (chosen.seed != controls.seed) base = prepared_picture(picture, style, chosen, work, &base);
     const auto observe = [&](const StageView& stage) {
-        for (std::size_t k = 0; k < names.size(); ++k) {
-            const StageName wanted = stage_name(names[k], style);
-            if (needs_growth(names[k]) && wanted.view != "tree" && wanted.stage == stage.stage.name)
-                out[k] = stage_picture(wanted.view, stage);
-        }
+        for (std::size_t k = 0; k < wanted.size(); ++k)
+            if (wanted[k].is_of_growth() && wanted[k].view != "tree" && wanted[k].stage == stage.stage.name)
+                out[k] = stage_picture(wanted[k].view, stage);
     };
     const Grown grown = grow(base, style, chosen, picture.extent(), observe, work);
-    for (std::size_t k = 0; k < names.size(); ++k)
-        if (out[k].empty()) out[k] = tree_picture(base.lattice, grown.dendrite);
+    for (Picture& p : out)
+        if (p.empty()) p = tree_picture(base.lattice, grown.dendrite);
     return out;
 }
 
