@@ -27,14 +27,13 @@ Histogram histogram(const Grid<float>& field) {
     const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
     h.lo = *lo;
     h.scale = *hi > *lo ? float(kBins) / (*hi - *lo) : 0;
-    // Each band counts for itself. Two in turn: neighbours are alike, and a count that is just being written
-    // would have to be waited for.
+    // Each band counts for itself.
     constexpr std::size_t kBand = std::size_t{1} << 19;
     const std::size_t bands = (field.size() + kBand - 1) / kBand;
-    std::vector<std::vector<std::uint32_t>> counts(2 * bands, std::vector<std::uint32_t>(kBins, 0));
+    std::vector<std::vector<std::uint32_t>> counts(bands, std::vector<std::uint32_t>(kBins, 0));
     tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
         const std::size_t end = std::min(field.size(), (band + 1) * kBand);
-        for (std::size_t n = band * kBand; n < end; ++n) ++counts[2 * band + n % 2][std::size_t(h.bin(field[n]))];
+        for (std::size_t n = band * kBand; n < end; ++n) ++counts[band][std::size_t(h.bin(field[n]))];
     });
     for (const std::vector<std::uint32_t>& count : counts)
         std::transform(count.begin(), count.end(), h.count.begin(), h.count.begin(), std::plus<>());
