@@ -26,11 +26,15 @@ class Thinning {
     explicit Thinning(const Grid<std::uint8_t>& shape)
         : width_(shape.extent().x + 2),
           inside_(std::size_t(width_) * std::size_t(shape.extent().y + 2), 0),
+          listed_(inside_.size(), 0),
           around_{-width_, 1 - width_, 1, 1 + width_, width_, width_ - 1, -1, -1 - width_} {
         for (int j = 0; j < shape.extent().y; ++j)
             for (int i = 0; i < shape.extent().x; ++i) inside_[at(i, j)] = shape(i, j) != 0;
         for (std::size_t n = 0; n < inside_.size(); ++n)
-            if (inside_[n] && ring(n) != 0xff) candidates_.push_back(n);
+            if (inside_[n] && ring(n) != 0xff) {
+                candidates_.push_back(n);
+                listed_[n] = 1;
+            }
     }
 
     void run() {
@@ -52,7 +56,7 @@ class Thinning {
         for (unsigned k = 0; k < 8; ++k) bits |= unsigned(inside_[n + std::size_t(around_[k])]) << k;
         return bits;
     }
-    static bool goes(unsigned bits, bool second) {
+    static constexpr bool goes(unsigned bits, bool second) {
         const auto on = [bits](unsigned k) { return bits >> (k & 7u) & 1u; };
         unsigned count = 0, rises = 0;
         for (unsigned k = 0; k < 8; ++k) {
@@ -65,26 +69,57 @@ class Thinning {
                       : !(up && right && down) && !(right && down && left);
     }
 
+    /// `goes` of every ring, for the first and the second half-iteration.
+    using Verdicts = std::array<std::array<bool, 256>, 2>;
+    static constexpr Verdicts verdicts() {
+        Verdicts out{};
+        for (unsigned bits = 0; bits < 256; ++bits)
+            for (const bool second : {false, true}) out[second][bits] = goes(bits, second);
+        return out;
+    }
+
     /// One half-iteration: whether anything went. All decisions are made before anything goes.
     bool sweep(bool second) {
+        static constexpr Verdicts kGoes = verdicts();
         std::vector<std::size_t> gone, kept;
-        for (const std::size_t n : candidates_) (goes(ring(n), second) ? gone : kept).push_back(n);
+        for (const std::size_t n : candidates_) (kGoes[second][ring(n)] ? gone : kept).push_back(n);
         for (const std::size_t n : gone) inside_[n] = 0;
-        if (gone.empty()) return false;
         for (const std::size_t n : gone)
-            for (const int step : around_)
-                if (inside_[n + std::size_t(step)]) kept.push_back(n + std::size_t(step));
-        std::sort(kept.begin(), kept.end());
-        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+            for (const int step : around_) {
+                const std::size_t beside = n + std::size_t(step);
+                if (inside_[beside] && !listed_[beside]) {
+                    listed_[beside] = 1;
+                    kept.push_back(beside);
+                }
+            }
         candidates_ = std::move(kept);
-        return true;
+        return !gone.empty();
     }
 
     int width_;
     std::vector<std::uint8_t> inside_;
+    std::vector<std::uint8_t> listed_;  ///< whether a node is, or was, among the candidates
     std::array<int, 8> around_;
     std::vector<std::size_t> candidates_;
 };
+
+/// Thinning eats parts of two by two nodes whole: those keep their deepest one.
+void keep_a_node_of_each_part(const Grid<std::uint8_t>& shape, Grid<std::uint8_t>& axis) {
+    const Grid<int> part = nearest_part(shape);
+    std::vector<bool> kept(std::size_t(1 + *std::max_element(part.begin(), part.end())), false);
+    for (std::size_t n = 0; n < axis.size(); ++n)
+        if (axis[n]) kept[std::size_t(part[n])] = true;
+    if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
+    const Grid<float> depth = signed_depth(shape);
+    std::vector<std::size_t> deepest(kept.size(), shape.size());
+    for (std::size_t n = 0; n < shape.size(); ++n) {
+        if (!shape[n] || kept[std::size_t(part[n])]) continue;
+        std::size_t& best = deepest[std::size_t(part[n])];
+        if (best == shape.size() || depth[n] > depth[best]) best = n;
+    }
+    for (const std::size_t n : deepest)
+        if (n < axis.size()) axis[n] = 1;
+}
 
 }  // namespace
 
@@ -122,23 +157,9 @@ Grid<std::uint8_t> skeleton(const Grid<std::uint8_t>& shape) {
     if (!has_inside(shape)) return out;
     Thinning thinning(shape);
     thinning.run();
-    // Thinning eats parts of two by two nodes whole: those keep their deepest one.
-    const Grid<int> part = nearest_part(shape);
-    const Grid<float> depth = signed_depth(shape);
-    const int parts = 1 + *std::max_element(part.begin(), part.end());
-    std::vector<bool> kept(std::size_t(parts), false);
-    std::vector<std::size_t> deepest(std::size_t(parts), shape.size());
     for (int j = 0; j < e.y; ++j)
-        for (int i = 0; i < e.x; ++i) {
-            if (!shape(i, j)) continue;
-            const std::size_t n = std::size_t(j) * std::size_t(e.x) + std::size_t(i);
-            const auto p = std::size_t(part[n]);
-            out[n] = thinning.inside(i, j);
-            if (out[n]) kept[p] = true;
-            if (deepest[p] == shape.size() || depth[n] > depth[deepest[p]]) deepest[p] = n;
-        }
-    for (std::size_t p = 0; p < kept.size(); ++p)
-        if (!kept[p] && deepest[p] < out.size()) out[deepest[p]] = 1;
+        for (int i = 0; i < e.x; ++i) out(i, j) = thinning.inside(i, j);
+    keep_a_node_of_each_part(shape, out);
     return out;
 }
 

@@ -10,6 +10,7 @@ namespace dstylize::field {
 #undef DSTYLIZE_FIELD
 
 FlowField flow(Fields& fields);
+Grid<std::uint8_t> shape_axis(Fields& fields);
 Grid<std::uint8_t> shape_interior(Fields& fields);
 
 /// Noise of the given correlation length, keyed by picture position: cells of `cell_u` on a fixed

@@ -64,6 +64,11 @@ const FlowField& Fields::flow() {
     return *flow_;
 }
 
+const Grid<std::uint8_t>& Fields::shape_axis() {
+    if (!shape_axis_) shape_axis_ = field::shape_axis(*this);
+    return *shape_axis_;
+}
+
 const Grid<std::uint8_t>& Fields::shape_interior() {
     if (!shape_interior_) shape_interior_ = field::shape_interior(*this);
     return *shape_interior_;

@@ -82,6 +82,8 @@ class Fields {
     /// The field called `name`. Throws Error(bad_usage) naming the nearest for an unknown one.
     const Grid<float>& operator[](std::string_view name);
     const FlowField& flow();
+    /// The medial axis of the mask, or without one of the picture's dark parts: 1 on it.
+    const Grid<std::uint8_t>& shape_axis();
     /// Nodes where growth in the shape may go: the mask, grown by the overflow and made ragged; parts that
     /// are separate in the mask stay so. Without a mask: of the picture's dark parts.
     const Grid<std::uint8_t>& shape_interior();
@@ -110,7 +112,7 @@ class Fields {
     float u_;
     std::array<std::optional<Grid<float>>, kCount> cache_;
     std::optional<FlowField> flow_;
-    std::optional<Grid<std::uint8_t>> shape_interior_;
+    std::optional<Grid<std::uint8_t>> shape_axis_, shape_interior_;
 };
 
 }  // namespace dstylize

@@ -51,13 +51,15 @@ Grid<std::uint8_t> joined_to(const Grid<std::uint8_t>& axis, const Grid<std::uin
 
 }  // namespace
 
+Grid<std::uint8_t> shape_axis(Fields& fields) { return skeleton(bare_shape(fields)); }
+
 Grid<std::uint8_t> shape_interior(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<std::uint8_t> bare = bare_shape(fields);
     if (p.shape_overflow <= 0 && p.shape_ragged <= 0) return bare;
     const float u = fields.u();
     const Grid<float> depth = signed_depth(bare);
-    const Grid<std::uint8_t> axis = skeleton(bare);
+    const Grid<std::uint8_t>& axis = fields.shape_axis();
     const Grid<int> part = nearest_part(bare);
     const float scale_u = std::max(0.5f, p.shape_ragged_scale);
     const Grid<float> noise = correlated_noise(fields, Purpose::ragged_outline, scale_u / 3, scale_u);
@@ -82,7 +84,7 @@ Grid<float> shape(Fields& fields) {
 }
 
 Grid<float> axis(Fields& fields) {
-    const Grid<float> away = distance_to(skeleton(bare_shape(fields)));
+    const Grid<float> away = distance_to(fields.shape_axis());
     const float sigma = std::max(0.1f, fields.parameters().axis_width * fields.u());
     Grid<float> out(away.extent());
     std::transform(away.begin(), away.end(), out.begin(),
@@ -100,8 +102,7 @@ Grid<float> rim(Fields& fields) {
 }
 
 Grid<float> room(Fields& fields) {
-    const Grid<std::uint8_t> bare = bare_shape(fields);
-    const Grid<float> depth = signed_depth(bare), to_axis = distance_to(skeleton(bare));
+    const Grid<float> depth = signed_depth(bare_shape(fields)), to_axis = distance_to(fields.shape_axis());
     const float whole = kRoom_u * fields.u();
     Grid<float> out(depth.extent());
     for (std::size_t n = 0; n < out.size(); ++n)
