@@ -19,7 +19,7 @@ Grid<float> like(const Grid<float>& g) { return Grid<float>(g.extent()); }
 constexpr int kBins = 65536;
 struct Histogram {
     float lo = 0, scale = 0;
-    std::vector<std::uint32_t> count = std::vector<std::uint32_t>(kBins, 0);
+    std::vector<std::uint32_t> count;
     int bin(float v) const { return std::min(kBins - 1, int((v - lo) * scale)); }
 };
 Histogram histogram(const Grid<float>& field) {
@@ -30,13 +30,15 @@ Histogram histogram(const Grid<float>& field) {
     // Each band counts for itself.
     constexpr std::size_t kBand = std::size_t{1} << 19;
     const std::size_t bands = (field.size() + kBand - 1) / kBand;
-    std::vector<std::vector<std::uint32_t>> counts(bands, std::vector<std::uint32_t>(kBins, 0));
+    std::vector<std::vector<std::uint32_t>> counts(bands);
     tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
+        counts[band].assign(kBins, 0);
         const std::size_t end = std::min(field.size(), (band + 1) * kBand);
         for (std::size_t n = band * kBand; n < end; ++n) ++counts[band][std::size_t(h.bin(field[n]))];
     });
-    for (const std::vector<std::uint32_t>& count : counts)
-        std::transform(count.begin(), count.end(), h.count.begin(), h.count.begin(), std::plus<>());
+    h.count = std::move(counts.front());
+    for (std::size_t band = 1; band < bands; ++band)
+        std::transform(counts[band].begin(), counts[band].end(), h.count.begin(), h.count.begin(), std::plus<>());
     return h;
 }
 

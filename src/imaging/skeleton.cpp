@@ -103,24 +103,6 @@ class Thinning {
     std::vector<std::size_t> candidates_;
 };
 
-/// Thinning eats parts of two by two nodes whole: those keep their deepest one.
-void keep_a_node_of_each_part(const Grid<std::uint8_t>& shape, Grid<std::uint8_t>& axis) {
-    const Grid<int> part = nearest_part(shape);
-    std::vector<bool> kept(std::size_t(1 + *std::max_element(part.begin(), part.end())), false);
-    for (std::size_t n = 0; n < axis.size(); ++n)
-        if (axis[n]) kept[std::size_t(part[n])] = true;
-    if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
-    const Grid<float> depth = signed_depth(shape);
-    std::vector<std::size_t> deepest(kept.size(), shape.size());
-    for (std::size_t n = 0; n < shape.size(); ++n) {
-        if (!shape[n] || kept[std::size_t(part[n])]) continue;
-        std::size_t& best = deepest[std::size_t(part[n])];
-        if (best == shape.size() || depth[n] > depth[best]) best = n;
-    }
-    for (const std::size_t n : deepest)
-        if (n < axis.size()) axis[n] = 1;
-}
-
 }  // namespace
 
 Grid<float> distance_to(const Grid<std::uint8_t>& shape) {
@@ -132,11 +114,20 @@ Grid<float> distance_to(const Grid<std::uint8_t>& shape) {
     return out;
 }
 
+namespace {
+
+/// Distance of the nodes inside the shape to those outside.
+Grid<float> depth_inside(const Grid<std::uint8_t>& shape) {
+    Grid<std::uint8_t> outside(shape.extent());
+    std::transform(shape.begin(), shape.end(), outside.begin(), [](std::uint8_t v) { return !v; });
+    return distance_to(outside);
+}
+
+}  // namespace
+
 Grid<float> signed_depth(const Grid<std::uint8_t>& shape) {
-    Grid<std::uint8_t> outside = shape;
-    for (std::uint8_t& v : outside) v = !v;
     const Grid<float> to_inside = distance_to(shape);
-    Grid<float> out = distance_to(outside);
+    Grid<float> out = depth_inside(shape);
     for (std::size_t n = 0; n < out.size(); ++n) out[n] = shape[n] ? out[n] - 0.5f : 0.5f - to_inside[n];
     return out;
 }
@@ -150,6 +141,32 @@ Grid<int> nearest_part(const Grid<std::uint8_t>& shape) {
     for (int& part : out) --part;
     return out;
 }
+
+namespace {
+
+/// Thinning eats parts of two by two nodes whole: those keep their deepest one.
+void keep_a_node_of_each_part(const Grid<std::uint8_t>& shape, Grid<std::uint8_t>& axis) {
+    const Extent e = shape.extent();
+    Grid<int> part(e);
+    cv::Mat labels(e.y, e.x, CV_32S, part.data());
+    const int parts = cv::connectedComponents(255 - outside_of(shape), labels, 8, CV_32S);
+    std::vector<bool> kept(std::size_t(parts), false);
+    kept[0] = true;  // the outside
+    for (std::size_t n = 0; n < axis.size(); ++n)
+        if (axis[n]) kept[std::size_t(part[n])] = true;
+    if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
+    const Grid<float> depth = depth_inside(shape);
+    std::vector<std::size_t> deepest(kept.size(), shape.size());
+    for (std::size_t n = 0; n < shape.size(); ++n) {
+        if (kept[std::size_t(part[n])]) continue;
+        std::size_t& best = deepest[std::size_t(part[n])];
+        if (best == shape.size() || depth[n] > depth[best]) best = n;
+    }
+    for (const std::size_t n : deepest)
+        if (n < axis.size()) axis[n] = 1;
+}
+
+}  // namespace
 
 Grid<std::uint8_t> skeleton(const Grid<std::uint8_t>& shape) {
     const Extent e = shape.extent();
@@ -165,10 +182,10 @@ Grid<std::uint8_t> skeleton(const Grid<std::uint8_t>& shape) {
 
 float stem_width(const Grid<std::uint8_t>& shape) {
     const Grid<std::uint8_t> axis = skeleton(shape);
-    const Grid<float> depth = signed_depth(shape);
+    const Grid<float> depth = depth_inside(shape);
     std::vector<float> depths;
     for (std::size_t n = 0; n < axis.size(); ++n)
-        if (axis[n]) depths.push_back(depth[n]);
+        if (axis[n]) depths.push_back(depth[n] - 0.5f);
     if (depths.empty()) return 0;
     std::nth_element(depths.begin(), depths.begin() + std::ptrdiff_t(depths.size() / 2), depths.end());
     return 2 * depths[depths.size() / 2];

@@ -1,8 +1,8 @@
 #include "metaphor/stone_ground.h"
 
+#include <tbb/parallel_for.h>
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
 #include "core/noise.h"
 
@@ -13,15 +13,19 @@ namespace {
 class ValueNoise {
   public:
     ValueNoise(std::uint64_t seed, std::uint32_t stream, Extent size_px, float cell_px)
-        : cell_px_(cell_px),
+        : cells_per_px_(std::min(1.0f, 1 / cell_px)),  // finer ones could not be seen
           turned_(0.6f * float(size_px.y + 2)),
-          values_({int((turned_ + 0.8f * float(size_px.x + 2)) / cell_px) + 2,
-                   int((0.6f * float(size_px.x + 2) + 0.8f * float(size_px.y + 2)) / cell_px) + 2}) {
+          values_({int((turned_ + 0.8f * float(size_px.x + 2)) * cells_per_px_) + 2,
+                   int((0.6f * float(size_px.x + 2) + 0.8f * float(size_px.y + 2)) * cells_per_px_) + 2}) {
         const Noise noise(seed, Purpose::paper, stream);
-        const auto stride = std::size_t(int(float(size_px.x + size_px.y + 4) / cell_px) + 2);
         tbb::parallel_for(0, values_.extent().y, [&](int j) {
-            for (int i = 0; i < values_.extent().x; ++i)
-                values_(i, j) = noise.unit(std::size_t(j) * stride + std::size_t(i));
+            const std::uint64_t row = std::uint64_t(j) << 32;
+            float* value = values_.row(j);
+            for (int i = 0; i < values_.extent().x; i += 4) {
+                const auto random = noise.block(row + std::uint64_t(i));
+                for (int k = 0; k < 4 && i + k < values_.extent().x; ++k)
+                    value[i + k] = float(random[std::size_t(k)] >> 8) * 0x1p-24f;
+            }
         });
     }
     float operator()(int x, int y) const {
@@ -32,15 +36,17 @@ class ValueNoise {
 
   private:
     float at(float x, float y) const {
-        const float u = x / cell_px_, v = y / cell_px_;
+        const float u = x * cells_per_px_, v = y * cells_per_px_;
         const int i = int(u), j = int(v);
-        const float fx = smoothstep(0, 1, u - float(i)), fy = smoothstep(0, 1, v - float(j));
-        const float top = values_(i, j) + (values_(i + 1, j) - values_(i, j)) * fx;
-        const float bottom = values_(i, j + 1) + (values_(i + 1, j + 1) - values_(i, j + 1)) * fx;
+        const auto smooth = [](float share) { return share * share * (3 - 2 * share); };
+        const float fx = smooth(u - float(i)), fy = smooth(v - float(j));
+        const float *above = values_.row(j) + i, *below = values_.row(j + 1) + i;
+        const float top = above[0] + (above[1] - above[0]) * fx;
+        const float bottom = below[0] + (below[1] - below[0]) * fx;
         return top + (bottom - top) * fy;
     }
 
-    float cell_px_, turned_;
+    float cells_per_px_, turned_;
     Grid<float> values_;
 };
 
@@ -82,8 +88,7 @@ std::shared_ptr<const Picture> basalt(const Subject& subject) {
     });
     auto out = std::make_shared<Picture>(size);
     tbb::parallel_for(0, size.y, [&](int y) {
-        for (int x = 0; x < size.x; ++x)
-            (*out)(x, y) = stone.colour(x, y, height(x + 1, y + 1) - height(x, y));
+        for (int x = 0; x < size.x; ++x) (*out)(x, y) = stone.colour(x, y, height(x + 1, y + 1) - height(x, y));
     });
     return out;
 }

@@ -79,6 +79,7 @@ DisplayList in_scene(const Drawing& drawing, const Picture& background, const Bo
     ground = brushed(ground, float(ground.extent().long_side()) / 1024, parameters.painted, seed, work);
 
     DisplayList out = moved(drawing.list, to, background.extent());
+    fade_light(out, {drawing.list.width_px, drawing.list.height_px}, to, parameters.fade);
     match_colours(out, ground, px_per_list, box, parameters);
     if (!roots.empty()) {
         shade_ground(ground, px_per_list, drawing.list, roots, to, parameters, work);

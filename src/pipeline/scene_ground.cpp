@@ -171,6 +171,32 @@ Picture foreground(const Picture& ground, float px_per_list, const DisplayList& 
     return out;
 }
 
+void fade_light(DisplayList& placed, Vec2f drawing, const Placement& placement, float fade) {
+    const Vec2f low = placement.shift_px, high = placement.placed(drawing);
+    const float wide = fade * std::min(high.x - low.x, high.y - low.y);
+    if (wide <= 0) return;
+    // An edge that is the ground's own needs no fading.
+    const float near = 0.02f * std::max(placed.width_px, placed.height_px);
+    const auto share = [&](Vec2f p) {
+        float inside = wide;
+        if (low.x > near) inside = std::min(inside, p.x - low.x);
+        if (low.y > near) inside = std::min(inside, p.y - low.y);
+        if (high.x < placed.width_px - near) inside = std::min(inside, high.x - p.x);
+        if (high.y < placed.height_px - near) inside = std::min(inside, high.y - p.y);
+        return smoothstep(0, wide, inside);
+    };
+    for (Layer& layer : placed.layers) {
+        if (!layer.glow) continue;
+        for (Item& item : layer.items) {
+            auto* stroke = std::get_if<VariableStroke>(&item);
+            if (!stroke) continue;
+            stroke->emission.resize(stroke->points_px.size(), 1.0f);
+            for (std::size_t k = 0; k < stroke->points_px.size(); ++k)
+                stroke->emission[k] *= share(stroke->points_px[k]);
+        }
+    }
+}
+
 void match_colours(DisplayList& placed, const Picture& ground, float px_per_list, const Box& box,
                    const SceneParameters& p) {
     constexpr float kAround = 0.15f;  // of the box, on every side

@@ -17,6 +17,10 @@ void shade_ground(Picture& ground, float px_per_list, const DisplayList& drawing
 Picture foreground(const Picture& ground, float px_per_list, const DisplayList& drawing, const std::vector<Foot>& feet,
                    const Placement& placement, float blades, std::uint64_t seed);
 
+/// Strokes of light fade out towards those edges of the drawing's frame that lie inside the ground's, over the
+/// share `fade` of its shorter side: light knows no frame. `drawing` is the extent of the drawing's own frame.
+void fade_light(DisplayList& placed, Vec2f drawing, const Placement& placement, float fade);
+
 /// Colours of the list between the shadows and the lights that the ground has around the box, by a share of
 /// `match`, and by `backlight` darker the darker it is there; layers that are of the ground get the ground's colours
 /// where they grow.

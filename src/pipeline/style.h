@@ -97,6 +97,7 @@ struct SceneParameters {
     float painted = 0.5f;
     float match = 0.5f;
     float backlight = 0;
+    float fade = 0.25f;
     bool stands = false;
     float contact = 0.6f;
     float shadow = 0.5f;

@@ -137,6 +137,23 @@ TEST_P(SceneLaws, AnyNumberOfThreadsGivesTheSameScene) {
     EXPECT_FALSE(one == land());
 }
 
+TEST(FadeLight, FallsToNothingAtTheEdgesInsideTheGroundAlone) {
+    // A drawing of 100 x 100 in the top left corner of a ground of 400 x 400.
+    DisplayList list{400, 400, {}, {}};
+    VariableStroke across;
+    for (const float x : {0.0f, 50.0f, 85.0f, 100.0f}) across.points_px.push_back({x, 40});
+    across.width_px.assign(4, 2);
+    list.layers = {{"light", Blend::max, {across}, Glow{}}, {"paint", Blend::over, {across}}};
+    fade_light(list, {100, 100}, {1, {0, 0}}, 0.3f);
+    const auto& lit = std::get<VariableStroke>(list.layers[0].items[0]).emission;
+    ASSERT_EQ(lit.size(), 4u);
+    EXPECT_EQ(lit[0], 1) << "the ground's own edge";
+    EXPECT_EQ(lit[1], 1);
+    EXPECT_NEAR(lit[2], 0.5f, 1e-5);
+    EXPECT_EQ(lit[3], 0);
+    EXPECT_TRUE(std::get<VariableStroke>(list.layers[1].items[0]).emission.empty());
+}
+
 TEST(Moved, LightAndReliefScaleWithTheStrokes) {
     DisplayList list{120, 80, {}, {}};
     Glow glow;
