@@ -55,21 +55,17 @@ HWY_INLINE Vec<std::uint32_t> lanes_from(Tag<std::uint32_t> d, const std::uint16
 }
 
 /// Labels above `base`: 0 for those below it, far for those out of reach.
-HWY_INLINE Vec<std::uint32_t> above(Tag<std::uint32_t> d, const std::uint32_t* label, std::uint32_t base) {
-    const auto from = hn::Set(d, base);
-    return hn::Min(hn::Sub(hn::Max(hn::LoadU(d, label), from), from), hn::Set(d, kFar<std::uint32_t>));
-}
 template <class Lane>
 void load_row_above(const std::uint32_t* label, std::uint32_t base, Lane* row) {
     const Tag<std::uint32_t> d;
+    const auto from = hn::Set(d, base), far = hn::Set(d, std::uint32_t{kFar<Lane>});
     for (int x = 0; x < kWindow; x += kLanes<std::uint32_t>) {
-        const auto lanes = above(d, label + x, base);
+        const auto lanes = hn::Min(hn::Sub(hn::Max(hn::LoadU(d, label + x), from), from), far);
         if constexpr (sizeof(Lane) == 4) {
             hn::Store(lanes, d, row + x);
         } else {
-            const auto near = hn::BitCast(hn::RebindToSigned<decltype(d)>(), hn::Min(lanes, hn::Set(d, 65535u)));
             const hn::Rebind<std::uint16_t, decltype(d)> half;
-            hn::StoreU(hn::DemoteTo(half, near), half, row + x);
+            hn::StoreU(hn::DemoteTo(half, hn::BitCast(hn::RebindToSigned<decltype(d)>(), lanes)), half, row + x);
         }
     }
 }
@@ -115,10 +111,47 @@ inline const std::uint16_t* heights_in_plane(const WeightedLattice& g, WindowRow
     return rows.where_it_leads(g.height_plane[s / 2].data(), y, step);
 }
 
+/// Costs from node weights alone, without knight's moves: h(u, v) = w(u) + w(v), so that an edge costs as much
+/// as its two ends. Ends that are impassable are far, and so are sums with them.
+template <class Lane>
+void load_costs_of_ends(const TileProblem& problem, int tile, TileWindow<Lane>& window) {
+    const WeightedLattice& g = problem.graph;
+    const auto steps = g.lattice.steps();
+    const Tag<Lane> d;
+    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
+    const std::size_t lengths = steps.size() > 4 ? 2 : 1;
+    for (std::size_t k = 0; k < lengths; ++k) {
+        const Lane length5 = problem.rule == TileRule::bottleneck ? Lane{1} : Lane(steps[4 * k].length5);
+        Lane* const end = window.end[0][k].data();
+        for (int y = 0; y < kWindow; ++y) {
+            const std::uint16_t* const weight = rows(g.weight.data(), y);
+            for (int x = 0; x < kWindow; x += kLanes<Lane>) {
+                const auto w = lanes_from(d, weight + x);
+                const auto cost = hn::Mul(w, hn::Set(d, length5));
+                hn::Store(hn::IfThenElse(hn::Eq(w, hn::Zero(d)), hn::Set(d, kFar<Lane>), cost), d,
+                          end + y * kWindow + x);
+            }
+        }
+        transpose(end, window.end[1][k].data());
+    }
+    for (std::size_t s = 0; s < steps.size(); s += 2)
+        for (const int transposed : {0, 1}) {
+            if (transposed == 1 && steps[s].dx == 0) continue;  // no sweep there arrives by it
+            const Lane* const from = window.end[transposed][s / 4].data();
+            const Lane* const to =
+                from + (transposed == 1 ? steps[s].dx * kWindow + steps[s].dy : steps[s].dy * kWindow + steps[s].dx);
+            Lane* const cost = window.cost[transposed][s].data();
+            for (int at = 0; at < int(kWindowNodes); at += kLanes<Lane>)
+                hn::Store(sum_of(hn::Load(d, from + at), hn::LoadU(d, to + at)), d, cost + at);
+        }
+}
+
 /// Fills window.cost, in both orientations. Where edges cost the same both ways, for even steps only.
 template <class Lane>
 void load_costs(const TileProblem& problem, int tile, bool even_only, TileWindow<Lane>& window) {
     const WeightedLattice& g = problem.graph;
+    if (even_only && g.height_plane.empty() && g.lattice.steps().size() <= 8)
+        return load_costs_of_ends(problem, tile, window);
     const Tag<Lane> d;
     WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
     if (g.height_plane.empty())

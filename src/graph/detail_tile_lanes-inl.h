@@ -102,12 +102,32 @@ HWY_INLINE void transpose(const Lane* from, Lane* to) {
         for (int x = 0; x < kWindow; x += 8) transpose_block(from, to, x, y);
 }
 
-template <class D, class Mask>
-HWY_INLINE std::uint64_t bits_of(D d, Mask mask) {
+template <class D>
+HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
+    // As many bytes as are stored: a processor waits before it reads more than it has just written.
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
-    std::uint64_t bits;
+    if constexpr (hn::MaxLanes(D()) <= 8) return bytes[0];
+    static_assert(hn::MaxLanes(D()) <= 16);
+    std::uint16_t bits;
     std::memcpy(&bits, bytes, sizeof bits);
+    return bits;
+}
+/// Bits of 16-bit lanes are gathered from bytes: without them AVX2 needs pext, which takes a hundred cycles on some
+/// processors.
+HWY_INLINE std::uint64_t bits_of(Tag<std::uint16_t> d, hn::Mask<Tag<std::uint16_t>> mask) {
+    const hn::RebindToSigned<decltype(d)> whole;
+    const hn::Rebind<std::int8_t, decltype(d)> bytes;
+    return bits_of(bytes, hn::MaskFromVec(hn::DemoteTo(bytes, hn::BitCast(whole, hn::VecFromMask(d, mask)))));
+}
+
+/// Which of the 64 lanes are above a bound.
+template <class Lane>
+HWY_INLINE std::uint64_t lanes_above(const Lane* lanes, Lane bound) {
+    const Tag<Lane> d;
+    std::uint64_t bits = 0;
+    for (int x = 0; x < kWindow; x += kLanes<Lane>)
+        bits |= bits_of(d, hn::Lt(hn::Set(d, bound), hn::Load(d, lanes + x))) << x;
     return bits;
 }
 

@@ -107,10 +107,14 @@ struct TileVisit {
 /// Brings a tile's window to rest: no edge within reach of its 16 or 32 bits lowers a label any more.
 void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& visit);
 
-/// The step from its parent to each node of a row, ParentColumn::kNoStep at unreached ones.
-/// `bottleneck` is empty for `sum`.
-void find_parents(const WeightedLattice& graph, std::span<const std::uint32_t> sum,
-                  std::span<const std::uint32_t> bottleneck, int row, std::span<std::uint8_t> step);
+/// Labels at rest, whose parents are wanted. `bottleneck` is empty for `sum`; no edge costs more than `largest_step`.
+struct ParentRequest {
+    const WeightedLattice& graph;
+    std::span<const std::uint32_t> sum, bottleneck;
+    std::uint32_t largest_step;
+};
+/// The step from its parent to each node of the rows, ParentColumn::kNoStep at unreached ones, in its place in `step`.
+void find_parents(const ParentRequest& request, int first_row, int end_row, std::span<std::uint8_t> step);
 
 /// The largest of the values, 0 if there are none.
 std::uint16_t largest_value(std::span<const std::uint16_t> values);

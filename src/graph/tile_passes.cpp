@@ -88,13 +88,7 @@ void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std:
         add_lanes(beside[0], now, base, fell & left, row, side);
         add_lanes(beside[2], now, base, fell & right, row, -side);
         std::uint64_t middle = fell & ~(left | right);
-        if (band == 1) {
-            std::uint64_t unseen = 0;
-            if (problem.largest_step != 0)
-                for (std::uint64_t rest = middle; rest != 0; rest &= rest - 1)
-                    if (now[std::countr_zero(rest)] >= seen) unseen |= rest & -rest;
-            middle = unseen;
-        }
+        if (band == 1) middle &= problem.largest_step == 0 ? 0 : lanes_above(now, Lane(seen - 1));
         add_lanes(beside[1], now, base, middle, row, 0);
     }
     const Pending& job = visit.job;
@@ -132,14 +126,28 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
     visit_lattice<AddCost>(problem, scratch.narrow, visit);
 }
 
-void find_parents(const WeightedLattice& graph, const std::uint32_t* sum, const std::uint32_t* bottleneck, int row,
-                  std::uint8_t* step) {
-    const ParentRow r{graph, sum, bottleneck, row};
-    const bool planes = !graph.height_plane.empty();
-    if (bottleneck != nullptr)
-        planes ? parents_of_row<true, true>(r, step) : parents_of_row<true, false>(r, step);
-    else
-        planes ? parents_of_row<false, true>(r, step) : parents_of_row<false, false>(r, step);
+void find_parents(const ParentRequest& request, int first_row, int end_row, std::uint8_t* step) {
+    const WeightedLattice& graph = request.graph;
+    const Extent e = graph.lattice.extent();
+    const StepOrder order(graph.lattice.steps());
+    const bool planes = !graph.height_plane.empty(), symmetric = !planes || graph.symmetric;
+    const std::uint32_t* const bottleneck = request.bottleneck.empty() ? nullptr : request.bottleneck.data();
+    const bool by_low_bits = bottleneck == nullptr && symmetric && request.largest_step <= kLargestLowCost;
+    constexpr int kReach = 2;
+    LowRows low(by_low_bits ? e.x : 0);
+    int loaded = std::max(0, first_row - kReach);
+    for (int j = first_row; j < end_row; ++j) {
+        const ParentRow row{graph, request.sum.data(), bottleneck, j};
+        std::uint8_t* const out = step + std::size_t(j) * std::size_t(e.x);
+        if (by_low_bits) {
+            for (; loaded < std::min(e.y, j + kReach + 1); ++loaded) low.load(row.sum, loaded);
+            planes ? low_parents_of_row<true>(row, low, order, out) : low_parents_of_row<false>(row, low, order, out);
+        } else if (bottleneck != nullptr) {
+            planes ? parents_of_row<true, true>(row, order, out) : parents_of_row<true, false>(row, order, out);
+        } else {
+            planes ? parents_of_row<false, true>(row, order, out) : parents_of_row<false, false>(row, order, out);
+        }
+    }
 }
 
 std::uint16_t largest_value(const std::uint16_t* values, std::size_t count) {
@@ -172,10 +180,8 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
     HWY_DYNAMIC_DISPATCH(visit_tile)(problem, scratch, visit);
 }
 
-void find_parents(const WeightedLattice& graph, std::span<const std::uint32_t> sum,
-                  std::span<const std::uint32_t> bottleneck, int row, std::span<std::uint8_t> step) {
-    HWY_DYNAMIC_DISPATCH(find_parents)
-    (graph, sum.data(), bottleneck.empty() ? nullptr : bottleneck.data(), row, step.data());
+void find_parents(const ParentRequest& request, int first_row, int end_row, std::span<std::uint8_t> step) {
+    HWY_DYNAMIC_DISPATCH(find_parents)(request, first_row, end_row, step.data());
 }
 
 std::uint16_t largest_value(std::span<const std::uint16_t> values) {

@@ -111,16 +111,13 @@ bool settle_labels(const TileProblem& problem, const std::vector<Source>& source
     return fits;
 }
 
-ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck,
+ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck, std::uint32_t largest_step,
                      const std::vector<Source>& sources, const Work& work) {
     std::vector<std::uint8_t> step(sum.size());
-    const Extent e = g.lattice.extent();
-    const int workers = std::min(thread_count(work), e.y);
+    const int rows = g.lattice.extent().y, workers = std::min(thread_count(work), rows);
+    const auto share = [&](int worker) { return int(std::int64_t(rows) * worker / workers); };
     run_workers(workers, [&](int worker) {
-        for (int j = int(std::int64_t(e.y) * worker / workers); j < int(std::int64_t(e.y) * (worker + 1) / workers);
-             ++j)
-            find_parents(g, sum, bottleneck, j,
-                         std::span(step).subspan(std::size_t(j) * std::size_t(e.x), std::size_t(e.x)));
+        find_parents({g, sum, bottleneck, largest_step}, share(worker), share(worker + 1), step);
     });
     for (const Source& s : sources)
         if (sum[index(s.node)] == s.start && (bottleneck.empty() || bottleneck[index(s.node)] == 0))
@@ -199,7 +196,7 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     }
     if (!settle_labels(sums, sources, work, stats)) return {};
     stats.tiles = std::uint64_t(tiling.count());
-    ParentColumn parent = parents(g, sum, bottleneck, sources, work);
+    ParentColumn parent = parents(g, sum, bottleneck, bounds.cost(), sources, work);
     OwnerColumn owner = owners(sum, parent, sources);
     return Plan{{std::move(sum), std::move(bottleneck)}, std::move(parent), std::move(owner)};
 }
