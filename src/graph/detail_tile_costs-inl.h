@@ -24,10 +24,6 @@ class WindowRows {
     const T* operator()(const T* plane, int y) { return at_origin(plane, y, {0, 0, 0}); }
     /// Only of nodes that are in the lattice with the ones that `step` leads to.
     const T* with_step(const T* plane, int y, Step step) { return at_origin(plane, y, step); }
-    /// For those nodes what the plane has of the ones that `step` leads to.
-    const T* where_it_leads(const T* plane, int y, Step step) {
-        return at_origin(plane + (std::ptrdiff_t(step.dy) * extent_.x + step.dx), y, step);
-    }
 
   private:
     const T* at_origin(const T* plane, int y, Step step) {
@@ -70,116 +66,116 @@ void load_row_above(const std::uint32_t* label, std::uint32_t base, Lane* row) {
     }
 }
 
-/// Heights of the edges that leave 64 nodes by a step, from node weights; 0 where there is none.
+// A height or a cost is far where there is no edge.
+
+template <class Lane>
+HWY_INLINE Vec<Lane> far_if_zero(Vec<Lane> v) {
+    const Tag<Lane> d;
+    return hn::IfThenElse(hn::Eq(v, hn::Zero(d)), hn::Set(d, kFar<Lane>), v);
+}
+
+/// Heights of the edges that leave nodes by a step, from node weights that are far where nothing may pass.
 template <class Lane>
 HWY_INLINE Vec<Lane> height_from_weights(const Lane* weight, Step step) {
     const Tag<Lane> d;
-    const auto a = hn::Load(d, weight), b = hn::LoadU(d, weight + step.dy * kWindow + step.dx);
-    auto least = hn::Min(a, b), height = hn::Add(a, b);
+    const auto far = hn::Set(d, kFar<Lane>);
+    auto height = sum_of(hn::Load(d, weight), hn::LoadU(d, weight + step.dy * kWindow + step.dx));
     if (is_knights_move(step)) {
-        for (const Offset o : passed_between(step)) {
-            const auto beside = hn::LoadU(d, weight + o.dy * kWindow + o.dx);
-            least = hn::Min(least, beside);
-            height = hn::Add(height, beside);
-        }
-        height = hn::ShiftRight<1>(height);
+        for (const Offset o : passed_between(step))
+            height = sum_of(height, hn::LoadU(d, weight + o.dy * kWindow + o.dx));
+        height = hn::IfThenElse(hn::Lt(height, far), hn::ShiftRight<1>(height), far);
     }
-    return hn::IfThenZeroElse(hn::Eq(least, hn::Zero(d)), height);
+    return hn::Min(height, far);
 }
 
-/// What an edge adds to a label: its height as it is, or times its length; far where there is no edge or
-/// where it does not keep to the bottlenecks, `m` being M where the edge begins.
 template <class Lane>
-HWY_INLINE Vec<Lane> cost_of(Vec<Lane> height, TileRule rule, Step step, const Lane* m) {
+HWY_INLINE Vec<Lane> cost_of(Vec<Lane> height, Step step) {
     const Tag<Lane> d;
     const auto far = hn::Set(d, kFar<Lane>);
-    const auto none = hn::Eq(height, hn::Zero(d));
-    if (rule == TileRule::bottleneck) return hn::IfThenElse(none, far, height);
-    const auto cost = hn::IfThenElse(none, far, hn::Mul(height, hn::Set(d, Lane(step.length5))));
-    if (rule == TileRule::sum) return cost;
-    const auto there = hn::LoadU(d, m + step.dy * kWindow + step.dx);
-    return hn::IfThenElse(hn::Eq(hn::Max(hn::Load(d, m), height), there), cost, far);
+    return hn::IfThenElse(hn::Eq(height, far), far, hn::Mul(height, hn::Set(d, Lane(step.length5))));
+}
+
+/// A cost where the edge u -> v keeps to the bottlenecks, max(M(u), h) = M(v); else far.
+template <class Lane>
+HWY_INLINE Vec<Lane> cost_within(Vec<Lane> cost, Vec<Lane> height, Vec<Lane> m_u, Vec<Lane> m_v) {
+    return hn::IfThenElse(hn::Eq(hn::Max(m_u, height), m_v), cost, hn::Set(Tag<Lane>(), kFar<Lane>));
 }
 
 /// Heights of the edges that leave a row by step s, or null where there are no planes.
 inline const std::uint16_t* heights_in_plane(const WeightedLattice& g, WindowRows<std::uint16_t>& rows, int y,
                                              std::size_t s) {
     if (g.height_plane.empty()) return nullptr;
-    const Step step = g.lattice.steps()[s];
-    if (!g.symmetric) return rows.with_step(g.height_plane[s].data(), y, step);
-    if (s % 2 == 0) return rows.with_step(g.height_plane[s / 2].data(), y, step);
-    return rows.where_it_leads(g.height_plane[s / 2].data(), y, step);
+    return rows.with_step(g.height_plane[g.symmetric ? s / 2 : s].data(), y, g.lattice.steps()[s]);
 }
 
-/// Costs from node weights alone, without knight's moves: h(u, v) = w(u) + w(v), so that an edge costs as much
-/// as its two ends. Ends that are impassable are far, and so are sums with them.
+/// Node weights, far where nothing may pass, and bottlenecks, each if they are needed.
 template <class Lane>
-void load_costs_of_ends(const TileProblem& problem, int tile, TileWindow<Lane>& window) {
+void load_nodes(const TileProblem& problem, int tile, TileWindow<Lane>& window) {
     const WeightedLattice& g = problem.graph;
-    const auto steps = g.lattice.steps();
     const Tag<Lane> d;
-    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
-    const std::size_t lengths = steps.size() > 4 ? 2 : 1;
-    for (std::size_t k = 0; k < lengths; ++k) {
-        const Lane length5 = problem.rule == TileRule::bottleneck ? Lane{1} : Lane(steps[4 * k].length5);
-        Lane* const end = window.end[0][k].data();
+    if (g.height_plane.empty()) {
+        WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
         for (int y = 0; y < kWindow; ++y) {
-            const std::uint16_t* const weight = rows(g.weight.data(), y);
-            for (int x = 0; x < kWindow; x += kLanes<Lane>) {
-                const auto w = lanes_from(d, weight + x);
-                const auto cost = hn::Mul(w, hn::Set(d, length5));
-                hn::Store(hn::IfThenElse(hn::Eq(w, hn::Zero(d)), hn::Set(d, kFar<Lane>), cost), d,
-                          end + y * kWindow + x);
-            }
+            const std::uint16_t* weight = rows(g.weight.data(), y);
+            for (int x = 0; x < kWindow; x += kLanes<Lane>)
+                hn::Store(far_if_zero<Lane>(lanes_from(d, weight + x)), d, window.weight.data() + y * kWindow + x);
         }
-        transpose(end, window.end[1][k].data());
     }
-    for (std::size_t s = 0; s < steps.size(); s += 2)
-        for (const int transposed : {0, 1}) {
-            if (transposed == 1 && steps[s].dx == 0) continue;  // no sweep there arrives by it
-            const Lane* const from = window.end[transposed][s / 4].data();
-            const Lane* const to =
-                from + (transposed == 1 ? steps[s].dx * kWindow + steps[s].dy : steps[s].dy * kWindow + steps[s].dx);
-            Lane* const cost = window.cost[transposed][s].data();
-            for (int at = 0; at < int(kWindowNodes); at += kLanes<Lane>)
-                hn::Store(sum_of(hn::Load(d, from + at), hn::LoadU(d, to + at)), d, cost + at);
+    if (problem.rule == TileRule::sum_within_bottleneck) {
+        WindowRows<std::uint32_t> rows(g.lattice, problem.tiling, tile, ~std::uint32_t{0});
+        for (int y = 0; y < kWindow; ++y)
+            load_row_above(rows(problem.bottleneck.data(), y), 0, window.bottleneck.data() + y * kWindow);
+    }
+}
+
+/// The costs of step s and, where an edge costs the same both ways, those of its opposite if they are wanted:
+/// in bottlenecks what is free one way need not be so the other way.
+template <TileRule kRule, class Lane>
+void load_costs_of_step(const TileProblem& problem, int tile, std::size_t s, TileWindow<Lane>& window) {
+    const WeightedLattice& g = problem.graph;
+    const Tag<Lane> d;
+    const Step step = g.lattice.steps()[s];
+    const int ahead = step.dy * kWindow + step.dx;
+    const bool both_ways = problem.symmetric();
+    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
+    for (int y = 0; y < kWindow; ++y) {
+        const std::uint16_t* const planes_row = heights_in_plane(g, rows, y, s);
+        for (int x = 0; x < kWindow; x += kLanes<Lane>) {
+            const int at = y * kWindow + x;
+            const auto height = planes_row != nullptr ? far_if_zero<Lane>(lanes_from(d, planes_row + x))
+                                                      : height_from_weights<Lane>(window.weight.data() + at, step);
+            if constexpr (kRule == TileRule::bottleneck) {
+                hn::Store(height, d, window.cost[0][s].data() + at);
+                continue;
+            }
+            const auto cost = cost_of<Lane>(height, step);
+            if constexpr (kRule == TileRule::sum) {
+                hn::Store(cost, d, window.cost[0][s].data() + at);
+                continue;
+            }
+            const Lane* const m = window.bottleneck.data() + at;
+            const auto m_u = hn::Load(d, m), m_v = hn::LoadU(d, m + ahead);
+            hn::Store(cost_within<Lane>(cost, height, m_u, m_v), d, window.cost[0][s].data() + at);
+            if (both_ways)
+                hn::StoreU(cost_within<Lane>(cost, height, m_v, m_u), d, window.cost[0][s + 1].data() + at + ahead);
         }
+    }
 }
 
 /// Fills window.cost, in both orientations. Where edges cost the same both ways, for even steps only.
 template <class Lane>
 void load_costs(const TileProblem& problem, int tile, bool even_only, TileWindow<Lane>& window) {
-    const WeightedLattice& g = problem.graph;
-    if (even_only && g.height_plane.empty() && g.lattice.steps().size() <= 8)
-        return load_costs_of_ends(problem, tile, window);
-    const Tag<Lane> d;
-    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
-    if (g.height_plane.empty())
-        for (int y = 0; y < kWindow; ++y) {
-            const std::uint16_t* weight = rows(g.weight.data(), y);
-            for (int x = 0; x < kWindow; x += kLanes<Lane>)
-                hn::Store(lanes_from(d, weight + x), d, window.weight.data() + y * kWindow + x);
+    load_nodes(problem, tile, window);
+    const auto steps = problem.graph.lattice.steps();
+    for (std::size_t s = 0; s < steps.size(); s += problem.symmetric() ? 2 : 1) switch (problem.rule) {
+            case TileRule::sum: load_costs_of_step<TileRule::sum>(problem, tile, s, window); break;
+            case TileRule::bottleneck: load_costs_of_step<TileRule::bottleneck>(problem, tile, s, window); break;
+            case TileRule::sum_within_bottleneck:
+                load_costs_of_step<TileRule::sum_within_bottleneck>(problem, tile, s, window);
+                break;
         }
-    if (problem.rule == TileRule::sum_within_bottleneck) {
-        WindowRows<std::uint32_t> labels(g.lattice, problem.tiling, tile, ~std::uint32_t{0});
-        for (int y = 0; y < kWindow; ++y)
-            load_row_above(labels(problem.bottleneck.data(), y), 0, window.bottleneck.data() + y * kWindow);
-    }
-    const auto steps = g.lattice.steps();
-    for (std::size_t s = 0; s < steps.size(); s += even_only ? 2 : 1) {
-        Lane* const cost = window.cost[0][s].data();
-        for (int y = 0; y < kWindow; ++y) {
-            const std::uint16_t* const planes_row = heights_in_plane(g, rows, y, s);
-            for (int x = 0; x < kWindow; x += kLanes<Lane>) {
-                const int at = y * kWindow + x;
-                const auto height = planes_row != nullptr
-                                        ? lanes_from(d, planes_row + x)
-                                        : height_from_weights<Lane>(window.weight.data() + at, steps[s]);
-                hn::Store(cost_of<Lane>(height, problem.rule, steps[s], window.bottleneck.data() + at), d, cost + at);
-            }
-        }
-        if (steps[s].dx != 0) transpose(cost, window.cost[1][s].data());
-    }
+    for (std::size_t s = 0; s < steps.size(); s += even_only ? 2 : 1)
+        if (steps[s].dx != 0) transpose(window.cost[0][s].data(), window.cost[1][s].data());
 }
 
 }  // namespace dstylize::HWY_NAMESPACE

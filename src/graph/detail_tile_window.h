@@ -21,7 +21,6 @@ template <class Lane>
 struct TileWindow {
     Plane<Lane> label[2];     ///< above the smallest pending one; its margins are far
     Plane<Lane> cost[2][16];  ///< of the edge that leaves a node by step s
-    Plane<Lane> end[2][2];    ///< what a straight [0] or diagonal [1] edge costs for one of its ends
     Plane<Lane> before;       ///< labels at the beginning of the visit
     Plane<Lane> weight;       ///< of nodes, or
     Plane<Lane> bottleneck;   ///< M

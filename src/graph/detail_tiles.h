@@ -75,6 +75,8 @@ struct TileProblem {
     std::span<std::uint32_t> label;             ///< one per node; ~0: unreached
     std::span<const std::uint32_t> bottleneck;  ///< M, for `sum_within_bottleneck`
 
+    /// Whether edges cost the same both ways.
+    bool symmetric() const { return graph.height_plane.empty() || graph.symmetric; }
     /// What a label can be above the smallest pending one and still be seen by a visit.
     std::uint32_t far() const { return wide ? std::uint32_t{1} << 30 : 65535; }
     /// Visits to tiles whose smallest pending label lies above would not keep labels within 32 bits.

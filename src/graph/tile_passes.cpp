@@ -100,7 +100,7 @@ template <class Rule, int kSteps, class Lane>
 void visit_window(const TileProblem& problem, TileWindow<Lane>& window, TileVisit& visit) {
     const std::uint32_t base = problem.rule == TileRule::bottleneck ? 0 : visit.job.least;
     const WeightedLattice& g = problem.graph;
-    const bool even_only = problem.rule != TileRule::sum_within_bottleneck && (g.height_plane.empty() || g.symmetric);
+    const bool even_only = problem.rule != TileRule::sum_within_bottleneck && problem.symmetric();
     load_labels(problem, visit.tile, base, window);
     load_costs(problem, visit.tile, even_only, window);
     const std::uint64_t rows = settle<Rule, kSteps>(window, g, even_only, visit.job, visit.rows_relaxed);
