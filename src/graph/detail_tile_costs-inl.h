@@ -6,6 +6,8 @@
 #define DSTYLIZE_GRAPH_DETAIL_TILE_COSTS_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <span>
 
@@ -31,6 +33,11 @@ class WindowRows {
         const int top = std::max(0, -int(step.dy)), bottom = std::min(extent_.y, extent_.y - step.dy);
         const int left = std::max(0, -int(step.dx)), right = std::min(extent_.x, extent_.x - step.dx);
         const std::ptrdiff_t begin = std::ptrdiff_t(j) * extent_.x + origin_.dx;
+        // Rows lie pages apart, so that no processor guesses where the next one is.
+        constexpr int kAhead = 8, kLine = 64 / sizeof(T);
+        if (j + kAhead >= top && j + kAhead < bottom)
+            for (int x = std::max(0, left - origin_.dx); x < std::min(kWindow, right - origin_.dx); x += kLine)
+                hwy::Prefetch(plane + begin + std::ptrdiff_t(kAhead) * extent_.x + x);
         const bool row_is_inside = j >= top && j < bottom;
         if (row_is_inside && origin_.dx >= left && origin_.dx + kWindow <= right) return plane + begin;
         std::fill_n(copy_, kWindow, outside_);
