@@ -21,14 +21,25 @@ struct Histogram {
     float lo = 0, scale = 0;
     std::vector<std::uint32_t> count;
     int bin(float v) const { return std::min(kBins - 1, int((v - lo) * scale)); }
+    float percentile(float percent, std::size_t samples) const {
+        if (scale == 0) return lo;
+        const auto wanted = std::uint64_t(double(percent) / 100 * double(samples));
+        std::uint64_t seen = 0;
+        for (int b = 0; b < kBins; ++b) {
+            seen += count[std::size_t(b)];
+            if (seen > wanted) return lo + (float(b) + 0.5f) / scale;
+        }
+        return lo + float(kBins) / scale;
+    }
 };
 Histogram histogram(const Grid<float>& field) {
     Histogram h;
-    const auto [lo, hi] = std::minmax_element(field.begin(), field.end());
-    h.lo = *lo;
-    h.scale = *hi > *lo ? float(kBins) / (*hi - *lo) : 0;
+    double lo = 0, hi = 0;
+    cv::minMaxLoc(mat(field), &lo, &hi);
+    h.lo = float(lo);
+    h.scale = hi > lo ? float(kBins) / (float(hi) - h.lo) : 0;
     // Each band counts for itself.
-    constexpr std::size_t kBand = std::size_t{1} << 19;
+    constexpr std::size_t kBand = std::size_t{1} << 18;
     const std::size_t bands = (field.size() + kBand - 1) / kBand;
     std::vector<std::vector<std::uint32_t>> counts(bands);
     tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
@@ -44,7 +55,7 @@ Histogram histogram(const Grid<float>& field) {
 
 /// cv::GaussianBlur in bands of rows at once. OpenCV reads beyond a band what lies there, so the bands do not show.
 void gaussian_blur(const cv::Mat& from, cv::Mat& to, double sigma) {
-    constexpr int kRows = 64;
+    constexpr int kRows = 192;
     const tbb::blocked_range<int> rows(0, from.rows, kRows);
     tbb::parallel_for(
         rows,
@@ -118,30 +129,25 @@ Derivatives derivatives(const Grid<float>& field) {
 
 StructureTensor structure_tensor(const Derivatives& d) {
     StructureTensor t{d.x, d.x, d.y};
-    for (std::size_t n = 0; n < d.x.size(); ++n) {
+    each_index(d.x.size(), [&](std::size_t n) {
         t.xx[n] = d.x[n] * d.x[n];
         t.xy[n] = d.x[n] * d.y[n];
         t.yy[n] = d.y[n] * d.y[n];
-    }
+    });
     return t;
 }
 
 Grid<float> gradient_magnitude(const Grid<float>& field) {
     Derivatives d = derivatives(field);
-    for (std::size_t n = 0; n < d.x.size(); ++n) d.x[n] = std::sqrt(d.x[n] * d.x[n] + d.y[n] * d.y[n]);
+    each_index(d.x.size(), [&](std::size_t n) { d.x[n] = std::sqrt(d.x[n] * d.x[n] + d.y[n] * d.y[n]); });
     return std::move(d.x);
 }
 
-float percentile(const Grid<float>& field, float percent) {
+float percentile(const Grid<float>& field, float percent) { return histogram(field).percentile(percent, field.size()); }
+
+std::pair<float, float> percentiles(const Grid<float>& field, float low_percent, float high_percent) {
     const Histogram h = histogram(field);
-    if (h.scale == 0) return h.lo;
-    const auto wanted = std::uint64_t(double(percent) / 100 * double(field.size()));
-    std::uint64_t seen = 0;
-    for (int b = 0; b < kBins; ++b) {
-        seen += h.count[std::size_t(b)];
-        if (seen > wanted) return h.lo + (float(b) + 0.5f) / h.scale;
-    }
-    return h.lo + float(kBins) / h.scale;
+    return {h.percentile(low_percent, field.size()), h.percentile(high_percent, field.size())};
 }
 
 Grid<float> rank(const Grid<float>& field) {
@@ -149,8 +155,8 @@ Grid<float> rank(const Grid<float>& field) {
     std::uint32_t below = 0;
     for (auto& c : h.count) below += std::exchange(c, below);
     Grid<float> out = like(field);
-    for (std::size_t n = 0; n < field.size(); ++n)
-        out[n] = float(h.count[std::size_t(h.bin(field[n]))]) / float(field.size());
+    each_index(field.size(),
+               [&](std::size_t n) { out[n] = float(h.count[std::size_t(h.bin(field[n]))]) / float(field.size()); });
     return out;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
+#include <utility>
+
 #include "core/grid.h"
 #include "core/picture.h"
+#include "imaging/bands.h"
 
 namespace dstylize {
 
@@ -23,6 +26,8 @@ struct StructureTensor {
 StructureTensor structure_tensor(const Derivatives& derivatives);
 /// The value below which `percent` of the samples lie, to 1/65536 of their range.
 float percentile(const Grid<float>& field, float percent);
+/// Two percentiles for the price of one.
+std::pair<float, float> percentiles(const Grid<float>& field, float low_percent, float high_percent);
 /// Every sample replaced by the share of samples that are smaller, in [0, 1).
 Grid<float> rank(const Grid<float>& field);
 /// `field` at another extent: area average when it shrinks, cubic when it grows.
@@ -35,10 +40,10 @@ Grid<float> luma_plane(const Picture& picture);
 /// Alpha in [0, 1], one per pixel.
 Grid<float> alpha_plane(const Picture& picture);
 
-/// Applies `f` to every sample in place.
+/// Applies `f`, which may run on several threads, to every sample in place.
 template <class F>
 void transform(Grid<float>& field, F f) {
-    for (float& v : field) v = f(v);
+    each_index(field.size(), [&](std::size_t n) { field[n] = f(field[n]); });
 }
 
 }  // namespace dstylize

@@ -87,7 +87,7 @@ Grid<float> guided(Fields& fields) {
 Grid<float> guide(Fields& fields) {
     Grid<float> out = fields["importance"];
     const Grid<float>& leads = fields["guided"];
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] *= leads[n];
+    each_index(out.size(), [&](std::size_t n) { out[n] *= leads[n]; });
     return out;
 }
 
@@ -97,10 +97,10 @@ Grid<float> wanted(Fields& fields) {
     if (!p.shaped && p.free_side <= 0 && p.likeness >= 1 && !fields.maps().no_picture) return out;
     const Grid<float>&inside = fields["crown"], &leads = fields["guided"];
     const Grid<float> chance = fractal_noise(fields, p.free_scale, 901);
-    for (std::size_t n = 0; n < out.size(); ++n) {
+    each_index(out.size(), [&](std::size_t n) {
         const float random = p.free_tone * std::max(0.0f, 0.3f + 1.4f * (0.5f + 2 * (chance[n] - 0.5f)));
         out[n] = std::clamp(inside[n] * (leads[n] * out[n] + (1 - leads[n]) * random), 0.0f, 1.0f);
-    }
+    });
     return out;
 }
 

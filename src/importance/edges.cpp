@@ -1,4 +1,6 @@
 // Fields of structure: gradients, line centres, and what combines them.
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -24,14 +26,15 @@ Grid<float> normalised_gradient(Fields& fields, float scale_u) {
 void apply_user_map(Fields& fields, Grid<float>& field) {
     const UserMaps& maps = fields.maps();
     if (!maps.importance) return;
-    for (std::size_t n = 0; n < field.size(); ++n)
+    each_index(field.size(), [&](std::size_t n) {
         field[n] = maps.importance_replaces ? (*maps.importance)[n] : field[n] * (*maps.importance)[n];
+    });
 }
 
 /// Nothing important lies at the frame: otherwise long strokes run along it.
 void fade_at_border(Fields& fields, Grid<float>& field) {
     const Grid<float>& at_border = fields["border"];
-    for (std::size_t n = 0; n < field.size(); ++n) field[n] *= 1 - at_border[n];
+    each_index(field.size(), [&](std::size_t n) { field[n] *= 1 - at_border[n]; });
 }
 
 }  // namespace
@@ -41,13 +44,13 @@ Grid<float> gradient(Fields& fields) {
     Grid<float> out = normalised_gradient(fields, p.gradient_scale);
     if (p.gradient_wide_share > 0) {
         const Grid<float> wide = normalised_gradient(fields, p.gradient_wide_scale);
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::max(out[n], p.gradient_wide_share * wide[n]);
+        each_index(out.size(), [&](std::size_t n) { out[n] = std::max(out[n], p.gradient_wide_share * wide[n]); });
     }
     if (p.gradient_gamma != 1) transform(out, [&](float v) { return std::pow(v, p.gradient_gamma); });
     if (p.gradient_tone > 0) {
         const Grid<float> tone = blurred(fields["tone"], 0.8f * fields.u());
-        for (std::size_t n = 0; n < out.size(); ++n)
-            out[n] *= 1 - p.gradient_tone * (1 - smoothstep(0.15f, 0.75f, tone[n]));
+        each_index(out.size(),
+                   [&](std::size_t n) { out[n] *= 1 - p.gradient_tone * (1 - smoothstep(0.15f, 0.75f, tone[n])); });
         normalise(out, p.gradient_percentile);
     }
     return out;
@@ -58,7 +61,7 @@ Grid<float> lines(Fields& fields) {
     const float sigma = fields.parameters().line_scale * fields.u();
     Grid<float> out = blurred(fields["tone"], sigma);
     const Grid<float> around = blurred(fields["tone"], sigma * kSurround);
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::max(0.0f, out[n] - around[n]);
+    each_index(out.size(), [&](std::size_t n) { out[n] = std::max(0.0f, out[n] - around[n]); });
     normalise(out, 98);
     transform(out, [](float v) { return std::pow(v, 0.8f); });
     return out;
@@ -72,7 +75,7 @@ Grid<float> importance(Fields& fields) {
     const auto add = [&](std::string_view name, float weight) {
         if (weight == 0) return;
         const Grid<float>& field = fields[name];
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] += field[n] * weight / total;
+        each_index(out.size(), [&](std::size_t n) { out[n] += field[n] * weight / total; });
     };
     add("tone", p.importance_tone);
     add("lines", p.importance_lines);
@@ -86,7 +89,7 @@ Grid<float> texture(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<float> both = fields["gradient"];
     const Grid<float>& line = fields["lines"];
-    for (std::size_t n = 0; n < both.size(); ++n) both[n] = std::max(p.features_gradient * both[n], line[n]);
+    each_index(both.size(), [&](std::size_t n) { both[n] = std::max(p.features_gradient * both[n], line[n]); });
     return blurred(both, p.features_surround * fields.u());
 }
 
@@ -95,12 +98,13 @@ Grid<float> features(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<float> out = fields["gradient"];
     const Grid<float>& line = fields["lines"];
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::max(p.features_gradient * out[n], line[n]);
+    each_index(out.size(), [&](std::size_t n) { out[n] = std::max(p.features_gradient * out[n], line[n]); });
     fade_at_border(fields, out);
     if (p.features_suppress > 0) {
         const Grid<float> around = blurred(out, p.features_surround * fields.u());
-        for (std::size_t n = 0; n < out.size(); ++n)
+        each_index(out.size(), [&](std::size_t n) {
             out[n] = std::max(0.0f, out[n] - p.features_suppress * std::max(0.0f, around[n] - kTolerated));
+        });
         normalise(out, 98.5f);
     }
     apply_user_map(fields, out);
@@ -121,8 +125,9 @@ Grid<float> low_features(Fields& fields) {
 Grid<float> density(Fields& fields) {
     Grid<float> out = blurred(fields["tone"], 2 * fields.u());
     const Grid<float>&g = fields["gradient"], &line = fields["lines"];
-    for (std::size_t n = 0; n < out.size(); ++n)
+    each_index(out.size(), [&](std::size_t n) {
         out[n] = 1 - (1 - 0.8f * out[n]) * (1 - 0.6f * std::max(0.75f * g[n], 0.9f * line[n]));
+    });
     apply_user_map(fields, out);
     return out;
 }
@@ -132,7 +137,7 @@ Grid<float> avoid(Fields& fields) {
     Grid<float> out = blurred(fields["tone"], 0.8f * fields.u());
     transform(out, [](float v) { return 1 - v; });
     const Grid<float> around = blurred(out, p.avoid_scale * fields.u());
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] = std::clamp(out[n] - p.avoid_level * around[n], 0.0f, 1.0f);
+    each_index(out.size(), [&](std::size_t n) { out[n] = std::clamp(out[n] - p.avoid_level * around[n], 0.0f, 1.0f); });
     return out;
 }
 
@@ -141,10 +146,11 @@ Grid<float> border(Fields& fields) {
     const Extent e = fields.extent();
     const float inner = kFullWithin_u * fields.u(), outer = fields.parameters().border_width * fields.u();
     Grid<float> out(e);
-    for (int j = 0; j < e.y; ++j)
+    tbb::parallel_for(0, e.y, [&](int j) {
         for (int i = 0; i < e.x; ++i)
             out(i, j) =
                 1 - smoothstep(inner, std::max(outer, inner + 1), float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
+    });
     return out;
 }
 
@@ -152,12 +158,12 @@ Grid<float> calm(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     Grid<float> detail = fields["gradient"];
     const Grid<float>& line = fields["lines"];
-    for (std::size_t n = 0; n < detail.size(); ++n) detail[n] = std::max(detail[n], line[n]);
+    each_index(detail.size(), [&](std::size_t n) { detail[n] = std::max(detail[n], line[n]); });
     fade_at_border(fields, detail);
     detail = blurred(detail, p.calm_scale * fields.u());
     const Grid<float> dark = blurred(fields["tone"], 8 * fields.u());
-    for (std::size_t n = 0; n < detail.size(); ++n)
-        detail[n] = detail[n] < p.calm_detail && dark[n] < p.calm_tone ? 1.0f : 0.0f;
+    each_index(detail.size(),
+               [&](std::size_t n) { detail[n] = detail[n] < p.calm_detail && dark[n] < p.calm_tone ? 1.0f : 0.0f; });
     return detail;
 }
 

@@ -13,14 +13,14 @@ namespace {
 void add_normalised(StructureTensor& sum, const StructureTensor& t, float sigma, float weight, float trace_percent) {
     const Grid<float> xx = blurred(t.xx, sigma), xy = blurred(t.xy, sigma), yy = blurred(t.yy, sigma);
     Grid<float> trace = xx;
-    for (std::size_t n = 0; n < trace.size(); ++n) trace[n] += yy[n];
+    each_index(trace.size(), [&](std::size_t n) { trace[n] += yy[n]; });
     const float least = percentile(trace, trace_percent) + 1e-9f;
-    for (std::size_t n = 0; n < trace.size(); ++n) {
+    each_index(trace.size(), [&](std::size_t n) {
         const float k = weight / std::max(trace[n], least);
         sum.xx[n] += k * xx[n];
         sum.xy[n] += k * xy[n];
         sum.yy[n] += k * yy[n];
-    }
+    });
 }
 
 }  // namespace
@@ -39,12 +39,12 @@ FlowField flow(Fields& fields) {
         add_normalised(sum, structure_tensor(derivatives(hills)), 2 * u, p.flow_swirl, 5);
     }
     FlowField out(fields.extent());
-    for (std::size_t n = 0; n < out.size(); ++n) {
+    each_index(out.size(), [&](std::size_t n) {
         const float difference = sum.xx[n] - sum.yy[n], cross = 2 * sum.xy[n];
         const float coherence = std::min(1.0f, std::sqrt(difference * difference + cross * cross));
         const float across = 0.5f * std::atan2(cross, difference);  // direction of the gradient
         out[n] = Vec2f{-std::sin(across), std::cos(across)} * coherence;
-    }
+    });
     return out;
 }
 

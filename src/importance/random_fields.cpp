@@ -18,12 +18,13 @@ Grid<float> white_noise(Fields& fields) {
     const Extent e = fields.extent();
     const float per_node = kCellsPer_u / fields.u();
     Grid<float> out(e);
-    for (int j = 0; j < e.y; ++j)
+    tbb::parallel_for(0, e.y, [&](int j) {
         for (int i = 0; i < e.x; ++i) {
             const auto cx = std::uint64_t((float(i) + 0.5f) * per_node),
                        cy = std::uint64_t((float(j) + 0.5f) * per_node);
             out(i, j) = noise.unit(cy << 32 | cx);
         }
+    });
     return out;
 }
 
@@ -90,7 +91,7 @@ Grid<float> fractal_noise(const Fields& fields, float wavelength_u, std::uint32_
     for (std::uint32_t octave = 0; octave < 3; ++octave, sigma /= 2, share /= 2) {
         const Grid<float> noise =
             field::correlated_noise(fields, Purpose::smooth_noise, sigma / 2, sigma, 1 + 3 * substream + octave);
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] += kDeviation * share / kNorm * noise[n];
+        each_index(out.size(), [&](std::size_t n) { out[n] += kDeviation * share / kNorm * noise[n]; });
     }
     transform(out, [](float v) { return std::clamp(v, 0.0f, 1.0f); });
     return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "imaging/bands.h"
 #include "imaging/skeleton.h"
 #include "importance/detail_field_functions.h"
 
@@ -64,10 +65,10 @@ Grid<std::uint8_t> shape_interior(Fields& fields) {
     const float scale_u = std::max(0.5f, p.shape_ragged_scale);
     const Grid<float> noise = correlated_noise(fields, Purpose::ragged_outline, scale_u / 3, scale_u);
     Grid<std::uint8_t> grown(bare.extent());
-    for (std::size_t n = 0; n < grown.size(); ++n) {
+    each_index(grown.size(), [&](std::size_t n) {
         const float share = std::clamp(kHalf + noise[n] / 3, 0.0f, 1.0f);
         grown[n] = axis[n] || depth[n] >= (p.shape_ragged * share - p.shape_overflow) * u;
-    }
+    });
     // Where two parts would grow into one, a gap of one node stays between them.
     Grid<std::uint8_t> parted = grown;
     for (int j = 0; j < grown.extent().y; ++j)
@@ -105,8 +106,9 @@ Grid<float> room(Fields& fields) {
     const Grid<float> depth = signed_depth(bare_shape(fields)), to_axis = distance_to(fields.shape_axis());
     const float whole = kRoom_u * fields.u();
     Grid<float> out(depth.extent());
-    for (std::size_t n = 0; n < out.size(); ++n)
+    each_index(out.size(), [&](std::size_t n) {
         out[n] = std::clamp((std::max(0.0f, depth[n]) + to_axis[n]) / whole, 0.0f, 1.0f);
+    });
     return out;
 }
 

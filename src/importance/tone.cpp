@@ -12,14 +12,14 @@ namespace {
 /// tone - share * its wide blur, stretched to [0, 1] again.
 void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
     const Grid<float> around = blurred(tone, sigma);
-    for (std::size_t n = 0; n < tone.size(); ++n) tone[n] -= share * around[n];
-    const float lo = percentile(tone, 5), hi = percentile(tone, 98);
+    each_index(tone.size(), [&](std::size_t n) { tone[n] -= share * around[n]; });
+    const auto [lo, hi] = percentiles(tone, 5, 98);
     // A picture of one colour has nothing to stretch.
     if (hi - lo < 1e-4f) {
-        for (std::size_t n = 0; n < tone.size(); ++n) tone[n] += share * around[n];
+        each_index(tone.size(), [&](std::size_t n) { tone[n] += share * around[n]; });
         return;
     }
-    transform(tone, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+    transform(tone, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
 }
 
 }  // namespace
@@ -28,11 +28,10 @@ Grid<float> luma(Fields& fields) { return fields.source_luma(); }
 
 Grid<float> lightness(Fields& fields) {
     Grid<float> out = fields.source_luma();
-    const float lo = percentile(out, fields.parameters().stretch_low);
-    const float hi = percentile(out, fields.parameters().stretch_high);
+    const auto [lo, hi] = percentiles(out, fields.parameters().stretch_low, fields.parameters().stretch_high);
     // A picture of one colour has nothing to stretch.
     if (hi - lo < 1e-4f) return out;
-    transform(out, [=](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+    transform(out, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
     return out;
 }
 
@@ -48,7 +47,7 @@ Grid<float> tone(Fields& fields) {
     const float equalise = p.tone_equalise;
     if (equalise > 0) {
         const Grid<float> ranks = rank(out);
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] = (1 - equalise) * out[n] + equalise * ranks[n];
+        each_index(out.size(), [&](std::size_t n) { out[n] = (1 - equalise) * out[n] + equalise * ranks[n]; });
     }
     if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
@@ -56,7 +55,7 @@ Grid<float> tone(Fields& fields) {
     if (p.tone_contrast > 0)
         transform(out, [&](float v) { return v + p.tone_contrast * (smoothstep(0.08f, 0.82f, v) - v); });
     if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] *= (*map)[n];
+        each_index(out.size(), [&](std::size_t n) { out[n] *= (*map)[n]; });
     return out;
 }
 

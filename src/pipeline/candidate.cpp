@@ -71,7 +71,7 @@ Grid<float> weighted_sum(Fields& fields, const FieldWeights& weights) {
     Grid<float> out(fields.extent(), 0.0f);
     for (const auto& [name, weight] : weights) {
         const Grid<float>& field = fields[name];
-        for (std::size_t n = 0; n < out.size(); ++n) out[n] += weight * field[n];
+        each_index(out.size(), [&, share = weight](std::size_t n) { out[n] += share * field[n]; });
     }
     return out;
 }

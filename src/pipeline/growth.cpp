@@ -34,7 +34,7 @@ Grid<float> node_cost(Fields& fields, const Round& round) {
     Grid<float> cost(fields.extent(), stage.cost_constant);
     for (const auto& [name, weight] : stage.cost) {
         const Grid<float>& field = fields[name];
-        for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += weight * field[n];
+        each_index(cost.size(), [&, share = weight](std::size_t n) { cost[n] += share * field[n]; });
     }
     return cost;
 }
@@ -44,11 +44,11 @@ void add_noise(Grid<float>& cost, const Fields& fields, const Round& round) {
     const StageParameters& stage = round.stage;
     if (stage.noise_white > 0) {
         const Noise noise(fields.seed(), Purpose::white_noise, round.substream());
-        for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += stage.noise_white * noise.unit(n);
+        each_index(cost.size(), [&](std::size_t n) { cost[n] += stage.noise_white * noise.unit(n); });
     }
     if (stage.noise_smooth > 0) {
         const Grid<float> noise = fractal_noise(fields, stage.noise_scale, round.substream());
-        for (std::size_t n = 0; n < cost.size(); ++n) cost[n] += 2 * stage.noise_smooth * noise[n] * noise[n];
+        each_index(cost.size(), [&](std::size_t n) { cost[n] += 2 * stage.noise_smooth * noise[n] * noise[n]; });
     }
 }
 
@@ -77,12 +77,12 @@ WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round
     graph.weight.resize(cost.size());
     const auto top = float(stage.levels - 1);
     const Adjacency* scattered = base.lattice.adjacency();
-    for (std::size_t n = 0; n < cost.size(); ++n) {
-        if (!base.passable[n] || (scattered && !sample(base.passable, scattered->position_lattice[n]))) continue;
+    each_index(cost.size(), [&](std::size_t n) {
+        if (!base.passable[n] || (scattered && !sample(base.passable, scattered->position_lattice[n]))) return;
         float c = std::max(0.0f, scattered ? sample(cost, scattered->position_lattice[n]) : cost[n]);
         if (stage.cost_power != 1) c = std::pow(c, stage.cost_power);
         graph.weight[n] = NodeWeight(1 + std::lround(top * std::min(1.0f, c / stage.cost_max)));
-    }
+    });
     if (!directional.flow.empty() || !directional.step_factor.empty()) build_height_planes(graph, directional, work);
     return graph;
 }
@@ -106,8 +106,8 @@ std::vector<NodeId> loop_closings(Fields& fields, const WeightedLattice& graph, 
     constexpr float kApart = 0.16f;  // of the shortest way around
     const Grid<float>& ridge = fields[p.priority];
     Grid<std::uint8_t> candidate(ridge.extent());
-    for (std::size_t n = 0; n < ridge.size(); ++n)
-        candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable;
+    each_index(ridge.size(),
+               [&](std::size_t n) { candidate[n] = ridge[n] >= p.at_least && graph.weight[n] != kImpassable; });
     const float around = p.close_loops * fields.u();
     return meeting_points(graph.lattice, plan, candidate, std::max(1, int(around)), kApart * around);
 }
@@ -165,7 +165,7 @@ Grid<float> lack(Fields& fields, const Dendrite& drawn, const WidthParameters& w
     const float window = (batch < kEarlyBatches ? kEarlyWindow_u : kWindow_u) * fields.u();
     Grid<float> out = ink_coverage(drawn, widths, fields.extent(), window);
     const Grid<float>& wanted = fields["wanted"];
-    for (std::size_t n = 0; n < out.size(); ++n) out[n] = width.wanted_gain * wanted[n] - out[n];
+    each_index(out.size(), [&](std::size_t n) { out[n] = width.wanted_gain * wanted[n] - out[n]; });
     return out;
 }
 
