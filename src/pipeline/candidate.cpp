@@ -38,8 +38,8 @@ namespace {
 /// The seed of one of several growths; the first has the run's own.
 std::uint64_t growth_seed(std::uint64_t seed, int growth) { return seed + std::uint64_t(growth) * 0x9e3779b97f4a7c15u; }
 
-/// Share of every lattice cell that the strokes ink.
-Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, const Work& work) {
+/// Share of the cells of a grid over the lattice that the strokes ink.
+Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattice, Extent cells, const Work& work) {
     DisplayList list{float(lattice.x), float(lattice.y), {{1, 1, 1, 1}, 0, 0}, {}};
     Layer layer{"ink", Blend::max, {}};
     for (VariableStroke& stroke : strokes_lattice) {
@@ -47,8 +47,8 @@ Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattic
         layer.items.push_back(std::move(stroke));
     }
     list.layers.push_back(std::move(layer));
-    const Picture black_on_white = raster(list, {lattice}, work);
-    Grid<float> out(lattice);
+    const Picture black_on_white = raster(list, {cells}, work);
+    Grid<float> out(cells);
     std::transform(black_on_white.begin(), black_on_white.end(), out.begin(),
                    [](Rgba8 p) { return 1 - float(p.r) / 255; });
     return out;
@@ -59,11 +59,13 @@ void fit_tone(Widths& widths, int passes, const std::vector<Centreline>& lines, 
               const Branching& b, float u, const Work& work) {
     constexpr float kTargetWindow_u = 4, kDrawnWindow_u = 6;
     const Grid<float> target = blurred(widths.target_ink(), kTargetWindow_u * u);
+    // The drawn ink is blurred: cells of two by two nodes say enough.
+    const Extent lattice = target.extent(), cells{(lattice.x + 1) / 2, (lattice.y + 1) / 2};
     for (int pass = 0; pass < passes; ++pass) {
         work.check();
         const Grid<float> ink =
-            drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), target.extent(), work);
-        widths.correct(target, blurred(ink, kDrawnWindow_u * u));
+            drawn_ink(strokes(lines, dendrite, b, widths.widths(), {1, 1, 1}), lattice, cells, work);
+        widths.correct(target, resized(blurred(ink, kDrawnWindow_u / 2 * u), lattice));
     }
 }
 
