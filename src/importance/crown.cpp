@@ -75,12 +75,15 @@ Grid<float> guided(Fields& fields) {
     Grid<float> out = fields["crown"];
     const float likeness = fields.maps().no_picture ? 0 : p.likeness;
     const Extent e = fields.extent();
-    for (int i = 0; i < e.x; ++i) {
+    std::vector<float> leads(std::size_t(e.x), likeness);
+    for (int i = 0; i < e.x && p.free_side > 0; ++i) {
         const float x = (float(i) + 0.5f) / float(e.x);
-        const float leads =
-            p.free_side > 0 ? smoothstep(p.free_side - p.free_ramp / 2, p.free_side + p.free_ramp / 2, x) : 1;
-        for (int j = 0; j < e.y; ++j) out(i, j) = likeness * leads * smoothstep(0, 0.6f, out(i, j));
+        leads[std::size_t(i)] *= smoothstep(p.free_side - p.free_ramp / 2, p.free_side + p.free_ramp / 2, x);
     }
+    each_index(std::size_t(e.y), [&](std::size_t j) {
+        float* const row = out.row(int(j));
+        for (std::size_t i = 0; i < leads.size(); ++i) row[i] = leads[i] * smoothstep(0, 0.6f, row[i]);
+    });
     return out;
 }
 

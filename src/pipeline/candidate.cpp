@@ -96,11 +96,11 @@ Candidate candidate(PreparedPicture base, const Style& style, const Controls& co
         half_width = fields["room"];
         transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
     }
-    Widths widths(
-        dendrite, c.branching, style.width,
-        {fields["wanted"], fields["lines"], fields["importance"], style.width.field > 0 ? &width_sum : nullptr,
-         &c.grown.node_cost, half_width.empty() ? nullptr : &half_width, &fields["guided"]},
-        u);
+    Widths widths(dendrite, c.branching, style.width,
+                  {fields["wanted"], fields["importance"], style.width.wants_ink() ? &fields["lines"] : nullptr,
+                   style.width.field > 0 ? &width_sum : nullptr, &c.grown.node_cost,
+                   half_width.empty() ? nullptr : &half_width, style.width.swing > 0 ? &fields["guided"] : nullptr},
+                  u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, c.lines, dendrite, c.branching, u, work);
     c.widths = widths.widths();
     return c;

@@ -57,6 +57,11 @@ class PlaceScore {
 
     float operator()(const Box& box, int i, int j) const {
         constexpr float kBand_u = 3;
+        if (place_ == Place::bottom || place_ == Place::top) {
+            const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
+            const float wanted = std::min(inset_, (float(box.bottom - box.top) + 1) / 4);
+            if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
+        }
         const float width = float(box.right - box.left) + 1, height = float(box.bottom - box.top) + 1;
         const float x = 2 * (float(i - box.left) + 0.5f) / width - 1;  // -1 … 1 across the part
         const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
@@ -65,9 +70,6 @@ class PlaceScore {
         if (place_ == Place::centre)
             return std::max(std::abs(x), std::abs(y)) <= 0.5f || width * height < 9 ? interest - 0.1f * (x * x + y * y)
                                                                                     : kNever;
-        const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
-        const float wanted = std::min(inset_, height / 4);
-        if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
         return interest - centring_ * x * x;
     }
     static constexpr float kNever = -1e9f;
@@ -130,43 +132,6 @@ NodeId passable_near(const WeightedLattice& graph, NodeId start, float radius) {
 }
 
 }  // namespace
-
-PassableParts passable_parts(const WeightedLattice& graph) {
-    const Lattice& lattice = graph.lattice;
-    PassableParts out{Grid<std::uint32_t>(lattice.extent(), PassableParts::kNone), {}};
-    const Adjacency* listed = lattice.adjacency();
-    // A knight's move never joins what the other steps do not.
-    const auto steps = lattice.steps().first(std::min<std::size_t>(8, lattice.steps().size()));
-    std::vector<NodeId> open;
-    const auto reach = [&](NodeId next, std::uint32_t part) {
-        if (!graph.passable(next) || out.part[index(next)] != PassableParts::kNone) return;
-        out.part[index(next)] = part;
-        open.push_back(next);
-    };
-    for (std::uint32_t n = 0; n < lattice.node_count(); ++n) {
-        if (!graph.passable(NodeId{n}) || out.part[n] != PassableParts::kNone) continue;
-        const auto part = std::uint32_t(out.size.size());
-        out.size.push_back(0);
-        out.part[n] = part;
-        open.assign(1, NodeId{n});
-        while (!open.empty()) {
-            const NodeId node = open.back();
-            open.pop_back();
-            ++out.size[part];
-            if (listed) {
-                const std::uint32_t end = listed->first[index(node) + 1];
-                for (std::uint32_t edge = listed->first[index(node)]; edge < end; ++edge)
-                    reach(NodeId{listed->to[edge]}, part);
-                continue;
-            }
-            const int column = lattice.column(node), row = lattice.row(node);
-            for (const Step step : steps)
-                if (lattice.extent().contains(column + step.dx, row + step.dy))
-                    reach(lattice.at(column + step.dx, row + step.dy), part);
-        }
-    }
-    return out;
-}
 
 std::vector<NodeId> root_nodes(Fields& fields, const WeightedLattice& graph, const RootParameters& parameters,
                                const std::vector<RootChoice>& chosen, Extent picture_px) {

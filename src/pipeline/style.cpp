@@ -107,8 +107,8 @@ void SceneParameters::visit(ParameterVisitor& v) {
     v.number({"match", "", "how far the drawing's colours move into the background's shadows and lights"}, match, 0, 1);
     v.number({"backlight", "", "how far they darken where the background is darker than paper, as against the light"},
              backlight, 0, 1);
-    v.number({"fade", "", "how far inside its place light has faded in, in shares of the place's shorter side"}, fade, 0,
-             0.5f);
+    v.number({"fade", "", "how far inside its place light has faded in, in shares of the place's shorter side"}, fade,
+             0, 0.5f);
     v.flag({"stands", "", "its lowest root is on the place's bottom edge, and hidden by the ground before it"}, stands);
     v.number({"contact", "", "how dark the ground is at the feet"}, contact, 0, 1);
     v.number({"shadow", "", "how dark the shadow on the ground is"}, shadow, 0, 1);

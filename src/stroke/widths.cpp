@@ -73,11 +73,14 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
                const WidthFields& fields, float u)
     : dendrite_(dendrite), branching_(branching), parameters_(parameters), fields_(fields), u_(u) {
     const WidthParameters& p = parameters_;
-    constexpr float kMostInk = 0.92f;
-    target_ink_ = blurred(fields.tone, u);
-    for (std::size_t n = 0; n < target_ink_.size(); ++n)
-        target_ink_[n] = std::min(kMostInk, p.tone_most * std::pow(std::max(0.0f, target_ink_[n]), p.tone_gamma) +
-                                                p.tone_lines * fields.lines[n]);
+    if (p.wants_ink()) {
+        constexpr float kMostInk = 0.92f;
+        target_ink_ = blurred(fields.tone, u);
+        each_index(target_ink_.size(), [&](std::size_t n) {
+            target_ink_[n] = std::min(kMostInk, p.tone_most * std::pow(std::max(0.0f, target_ink_[n]), p.tone_gamma) +
+                                                    p.tone_lines * (*fields.lines)[n]);
+        });
+    }
 
     constexpr float kDensityWindow_u = 7, kImportanceInk = 0.1f, kLeastDensity = 0.02f;
     raw_.resize(dendrite.size());

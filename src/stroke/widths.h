@@ -31,12 +31,15 @@ struct WidthParameters {
     float wanted_gain = 1.3f;
     PipeParameters pipe;
 
+    /// Whether widths follow the ink that is wanted.
+    bool wants_ink() const { return tone > 0 || swing > 0; }
     void visit(ParameterVisitor& visitor);
 };
 
 /// The fields that widths look at, at the lattice's extent, values in [0, 1].
 struct WidthFields {
-    const Grid<float>&tone, &lines, &importance;
+    const Grid<float>&tone, &importance;
+    const Grid<float>* lines = nullptr;       ///< needed when ink is wanted (WidthParameters::wants_ink)
     const Grid<float>* sum = nullptr;         ///< of WidthParameters::fields; needed when `field` weighs
     const Grid<float>* node_cost = nullptr;   ///< per unit of length, any scale; needed when `path` weighs
     const Grid<float>* half_width = nullptr;  ///< lattice steps: of the shape around; null: no limit
@@ -53,7 +56,7 @@ class Widths {
 
     /// One full width per node, after rolling mean, trunk floor, junction caps and tip taper.
     const std::vector<float>& widths() const { return widths_; }
-    /// Share of the area that should be inked, per node.
+    /// Share of the area that should be inked, per node; empty where no ink is wanted.
     const Grid<float>& target_ink() const { return target_ink_; }
     /// Multiplies the raw widths by target / drawn (both blurred by the caller) at each node, by at
     /// most `kMostCorrection` either way, and finishes them anew.

@@ -1,0 +1,19 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+
+namespace dstylize {
+
+/// Calls body(begin, end) for bands that together are the indices below `count`, on all threads of the task arena;
+/// few indices in one call. What a band does must not depend on another one.
+void in_bands(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
+/// Calls f(n) for every index below `count`, band by band.
+template <class F>
+void each_index(std::size_t count, F f) {
+    in_bands(count, [&f](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) f(n);
+    });
+}
+
+}  // namespace dstylize
