@@ -28,6 +28,7 @@ complete -c dstylize -n $draw -l background -ra 'input none' -d 'what the drawin
 complete -c dstylize -n $draw -l place -x -d 'where it stands in the background'
 complete -c dstylize -n $draw -l blend -xa 'over multiply screen soft-light' -d 'how it meets what it stands on'
 complete -c dstylize -n $draw -l show -xa '(dstylize styles --fields | string match -rv "^--" | string split -f 1 " ") weights endpoints distance owners tree' -d 'write an intermediate'
+complete -c dstylize -n $draw -l include -x -d 'of a folder only these pictures'
 complete -c dstylize -n $draw -l help-all -d 'every option'
 complete -c dstylize -n $draw -l version -d 'show the version'
 

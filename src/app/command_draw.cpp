@@ -22,7 +22,7 @@ CodecOptions codec_options(const Arguments& arguments) {
 void refuse_folder(const std::filesystem::path& input) {
     std::error_code ignored;
     if (std::filesystem::is_directory(input, ignored))
-        throw Error(ErrorCode::bad_usage, input.string(), "is a folder", "give one picture; folders are not drawn yet");
+        throw Error(ErrorCode::bad_usage, input.string(), "is a folder", "give one picture");
 }
 
 RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
@@ -46,12 +46,18 @@ RunReport run_and_report(const RunRequest& request, const Arguments& arguments, 
     return report;
 }
 
-void draw(const Arguments& arguments) {
+ExitCode draw(const Arguments& arguments) {
+    std::error_code ignored;
+    if (!arguments.names.empty() && std::filesystem::is_directory(arguments.names[0], ignored))
+        return draw_folder(arguments);
     const RunRequest request = draw_request(arguments);
-    refuse_folder(request.input);
+    if (!arguments.patterns.empty())
+        throw Error(ErrorCode::bad_usage, request.input.string(), "is no folder, and --include is for folders",
+                    "leave it out");
     Interrupt interrupt;
     PictureCodec codec(codec_options(arguments));  // loads while the style is read
     run_and_report(request, arguments, codec, interrupt);
+    return kDone;
 }
 
 void replay(const Arguments& arguments) {

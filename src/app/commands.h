@@ -14,12 +14,15 @@ enum ExitCode {
     kWrongUsage = 2,
     kInputUnreadable = 3,
     kOutputUnwritable = 4,
+    kSomeFailed = 5,
     kInterrupted = 130
 };
 ExitCode exit_code(ErrorCode code);
 
-/// Each runs one form of the program to its end. They throw Error.
-void draw(const Arguments& arguments);
+/// Each runs one form of the program to its end. They throw Error. A folder of pictures may end with some of them
+/// failed.
+ExitCode draw(const Arguments& arguments);
+ExitCode draw_folder(const Arguments& arguments);
 void write(const Arguments& arguments);
 void replay(const Arguments& arguments);
 void list_styles(const Arguments& arguments);
@@ -33,6 +36,8 @@ void refuse_folder(const std::filesystem::path& input);
 /// Where a user keeps styles of their own: dstylize/styles in the XDG configuration folder; empty without a home.
 std::filesystem::path user_style_folder();
 
+/// One line on standard error, whatever is in the file's name.
+void print_error(const Error& error);
 /// Writes to standard output. Throws Error(cannot_write).
 void print(const std::string& text);
 

@@ -28,14 +28,17 @@ void print(const std::string& text) {
                     fmt::format("cannot be written ({})", std::strerror(errno)), "check where it goes");
 }
 
-namespace {
-
-/// One line, whatever is in the file's name.
-int fail(const Error& error, const Arguments& arguments) {
+void print_error(const Error& error) {
     std::string line = fmt::format("dstylize: {}", error.what());
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
     std::fputs((line + "\n").c_str(), stderr);
+}
+
+namespace {
+
+int fail(const Error& error, const Arguments& arguments) {
+    print_error(error);
     const ExitCode code = exit_code(error.code());
     try {
         if (arguments.json) print(json_report(error, code));
@@ -45,18 +48,24 @@ int fail(const Error& error, const Arguments& arguments) {
     return code;
 }
 
-void run_form(Parser::Form form, std::vector<std::string> words, Arguments& arguments) {
+ExitCode run_form(Parser::Form form, std::vector<std::string> words, Arguments& arguments) {
     Parser parser(form, arguments);
     parser.parse(std::move(words));
-    if (arguments.version) return print(fmt::format("dstylize {}\n", version()));
-    if (arguments.help || arguments.help_all)
-        return print(parser.help(arguments.help_all || form != Parser::Form::draw));
+    if (arguments.version) {
+        print(fmt::format("dstylize {}\n", version()));
+        return kDone;
+    }
+    if (arguments.help || arguments.help_all) {
+        print(parser.help(arguments.help_all || form != Parser::Form::draw));
+        return kDone;
+    }
     switch (form) {
         case Parser::Form::draw: return draw(arguments);
-        case Parser::Form::write: return write(arguments);
-        case Parser::Form::replay: return replay(arguments);
-        case Parser::Form::styles: return list_styles(arguments);
+        case Parser::Form::write: write(arguments); break;
+        case Parser::Form::replay: replay(arguments); break;
+        case Parser::Form::styles: list_styles(arguments); break;
     }
+    return kDone;
 }
 
 int run_program(std::vector<std::string> words) {
@@ -67,8 +76,7 @@ int run_program(std::vector<std::string> words) {
     if (form != Parser::Form::draw) words.erase(words.begin());
     Arguments arguments;
     try {
-        run_form(form, std::move(words), arguments);
-        return kDone;
+        return run_form(form, std::move(words), arguments);
     } catch (const Error& error) {
         return fail(error, arguments);
     } catch (const std::bad_alloc&) {

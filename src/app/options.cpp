@@ -39,7 +39,7 @@ class HelpFormatter final : public CLI::Formatter {
 const char* usage(Parser::Form form) {
     switch (form) {
         case Parser::Form::draw:
-            return "dstylize IN OUT [options]       redraw a picture as one branching structure\n"
+            return "dstylize IN OUT [options]       redraw a picture, or a folder of pictures\n"
                    "dstylize write TEXT [IN] OUT    write words with branches, on paper or a picture\n"
                    "dstylize replay OLD IN OUT      make the drawing OLD again, say at another size\n"
                    "dstylize styles [NAME]          list the styles, or one with all its parameters\n";
@@ -159,6 +159,10 @@ void Parser::add_output_options() {
     add(app_.add_option("-o,--output", a.outputs, "one more output: png jpg tif webp svg pdf json"), kOutput)
         ->type_name("FILE")
         ->allow_extra_args(false);
+    if (form_ == Form::draw)
+        add(app_.add_option("--include", a.patterns, "of a folder only these pictures, as '*.jpg'"), kOutput, false)
+            ->type_name("PATTERN")
+            ->allow_extra_args(false);
     add(app_.add_option("--format", a.format, "of outputs without extension, as of -"), kOutput, false)
         ->type_name("FORMAT");
     add(app_.add_option("--quality", a.quality, "jpg, webp: 1 to 100; default 92"), kOutput, false)

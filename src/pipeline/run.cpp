@@ -15,10 +15,9 @@
 #include "pipeline/control_text.h"
 #include "pipeline/deliver.h"
 #include "pipeline/outputs.h"
-#include "pipeline/recipe.h"
+#include "pipeline/run_recipe.h"
 #include "pipeline/scene.h"
 #include "pipeline/stylize.h"
-#include "pipeline/version.h"
 
 namespace dstylize {
 namespace {
@@ -204,22 +203,13 @@ class Run {
 
     /// Fills in the recipe, and what is known of the report before anything is drawn.
     void describe() {
-        recipe_.program = fmt::format("dstylize {}", version());
-        recipe_.seed = request_.seed;
-        recipe_.importance_replaces = request_.importance_replaces;
-        recipe_.no_picture = request_.no_picture;
-        for (const RootChoice& root : request_.roots) recipe_.roots.push_back(root_text(root));
-        switch (request_.background.kind) {
-            case Background::Kind::input: recipe_.background = "input"; break;
-            case Background::Kind::none: recipe_.background = "none"; break;
-            case Background::Kind::colour: recipe_.background = colour_text(request_.background.colour); break;
-            case Background::Kind::style:
-            case Background::Kind::file: break;
-        }
-        if (request_.place) recipe_.place = place_text(*request_.place);
-        recipe_.writing = request_.writing;
-        recipe_.size = output_size_text(request_.size);
-        recipe_.style_toml = style_toml(style_);
+        Recipe recipe = recipe_of(request_, style_toml(style_));
+        recipe.input = std::move(recipe_.input);
+        recipe.importance = std::move(recipe_.importance);
+        recipe.mask = std::move(recipe_.mask);
+        recipe.endpoints = std::move(recipe_.endpoints);
+        recipe.background_file = std::move(recipe_.background_file);
+        recipe_ = std::move(recipe);
 
         report_.input = name_of(request_.input);
         report_.input_xxh128 = recipe_.input.xxh128;

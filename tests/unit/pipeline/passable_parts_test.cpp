@@ -31,7 +31,7 @@ WeightedLattice random_mask(Extent e, Neighbourhood neighbourhood, std::uint64_t
     g.lattice = Lattice(e, neighbourhood);
     const Noise noise(seed, Purpose::jitter);
     for (std::uint32_t n = 0; n < g.lattice.node_count(); ++n)
-        g.weight.push_back(noise.unit(n) < 0.55f ? 3 : kImpassable);
+        g.weight.push_back(noise.unit(n) < 0.4f ? 3 : kImpassable);
     return g;
 }
 

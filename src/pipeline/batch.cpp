@@ -1,0 +1,258 @@
+// A folder as one run: which results are up to date is settled picture by picture, just before it would be drawn, by
+// its bytes and by a key of everything else that shapes a result.
+#include "pipeline/batch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <thread>
+
+#include "formats/files.h"
+#include "formats/format.h"
+#include "pipeline/batch_report.h"
+#include "pipeline/content_hash.h"
+#include "pipeline/folder_listing.h"
+#include "pipeline/ledger.h"
+#include "pipeline/run_recipe.h"
+#include "pipeline/style_file.h"
+
+namespace dstylize {
+namespace {
+
+namespace fs = std::filesystem;
+using State = BatchPicture::State;
+
+std::string hash_of(std::string_view text) { return content_hash(std::as_bytes(std::span(text))); }
+
+/// 64 of the hash's bits, so that a picture's chance depends on its path and the run's seed alone.
+std::uint64_t own_seed(std::uint64_t seed, const fs::path& relative) {
+    return std::stoull(hash_of(fmt::format("{} {}", seed, relative.generic_string())).substr(0, 15), nullptr, 16);
+}
+
+void check_folders(const BatchRequest& request) {
+    const std::string name = request.output.string();
+    std::error_code ignored;
+    if (!fs::is_directory(request.input, ignored))
+        throw Error(ErrorCode::cannot_read, request.input.string(), "is no folder", "give a folder of pictures");
+    if (name.empty() || name == "-")
+        throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and its drawings need one", "give OUT");
+    if (fs::exists(request.output, ignored) && !fs::is_directory(request.output, ignored))
+        throw Error(ErrorCode::bad_usage, name, "is a file, and the input is a folder",
+                    "give a folder for the drawings");
+    if (fs::equivalent(request.input, request.output, ignored))
+        throw Error(ErrorCode::bad_usage, name, "is also the input", "give another folder for the drawings");
+    if (!request.each.outputs.empty() || !request.each.recipe_file.empty())
+        throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and -o and --recipe name single files",
+                    "give --format for another kind of result");
+}
+
+/// Paths of the results, in the order of the pictures.
+std::vector<fs::path> results_of(const std::vector<fs::path>& pictures, const std::string& extension) {
+    std::map<fs::path, int> times;
+    const auto plain = [&](const fs::path& picture) {
+        return picture.parent_path() / (picture.stem().string() + "." + extension);
+    };
+    for (const fs::path& picture : pictures) ++times[plain(picture)];
+    std::vector<fs::path> out;
+    for (const fs::path& picture : pictures)
+        out.push_back(times[plain(picture)] == 1 ? plain(picture) : fs::path(picture.string() + "." + extension));
+    return out;
+}
+
+/// Everything that shapes a result beside the picture's bytes and its own seed.
+std::string key_of(const RunRequest& each, const std::string& style, const std::string& extension) {
+    Recipe recipe = recipe_of(each, style);
+    const auto mark = [&](const fs::path& path, std::optional<FileMark>& file) {
+        if (!path.empty()) file = {path.string(), content_hash(read_file(path, each.max_memory_bytes))};
+    };
+    mark(each.importance.path, recipe.importance);
+    mark(each.mask.path, recipe.mask);
+    mark(each.endpoints.path, recipe.endpoints);
+    mark(each.background.file, recipe.background_file);
+    return hash_of(fmt::format("{}\n{} {} {} {} {}", recipe_toml(recipe), extension, each.show, each.quality,
+                               each.compression, each.keep_recipe));
+}
+
+class Batch {
+  public:
+    Batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer, const Work& work)
+        : request_(request), observer_(observer), work_(work) {}
+
+    BatchReport report() && {
+        check_folders(request_);
+        const std::string extension = request_.each.format.empty() ? "png" : request_.each.format;
+        format_named(extension);
+        Style style = load_style(request_.each.style, request_.each.settings, request_.each.user_styles);
+        report_.style = style.name;
+        key_ = key_of(request_.each, style_toml(style), extension);
+        list(extension);
+        if (!request_.each.dry_run) make_folder(request_.output / ".dstylize");
+        ledger_.emplace(request_.output);
+        draw_all();
+        if (!request_.each.dry_run) write_reports();
+        return std::move(report_);
+    }
+
+  private:
+    void list(const std::string& extension) {
+        const std::vector<fs::path> pictures = pictures_in(request_.input, request_.patterns, request_.output);
+        if (pictures.empty())
+            throw Error(ErrorCode::cannot_read, request_.input.string(), "has no pictures",
+                        "give another folder, or patterns of names with --include");
+        const std::vector<fs::path> results = results_of(pictures, extension);
+        for (std::size_t k = 0; k < pictures.size(); ++k)
+            report_.pictures.push_back({pictures[k].string(), results[k].string(), State::failed, {}, {}});
+    }
+
+    static void make_folder(const fs::path& folder) {
+        std::error_code error;
+        fs::create_directories(folder, error);
+        if (error)
+            throw Error(ErrorCode::cannot_write, folder.string(), "cannot be made (" + error.message() + ")",
+                        "check the folder's permissions");
+    }
+
+    /// First all, several at a time; then those that need more memory than their share, one by one.
+    void draw_all() {
+        constexpr std::uint64_t kMemoryOfOne = 1ull << 30;
+        const auto threads =
+            std::size_t(work_.threads > 0 ? work_.threads : std::max(1u, std::thread::hardware_concurrency()));
+        const std::size_t most = std::max<std::size_t>(1, request_.each.max_memory_bytes / kMemoryOfOne);
+        const std::size_t workers = std::min({threads, most, report_.pictures.size()});
+        std::vector<std::size_t> all(report_.pictures.size());
+        for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+        draw(all, workers, int(std::max<std::size_t>(1, threads / workers)));
+        if (workers > 1) draw(std::exchange(postponed_, {}), 1, int(threads));
+    }
+
+    void draw(const std::vector<std::size_t>& pictures, std::size_t workers, int threads) {
+        std::atomic<std::size_t> next{0};
+        std::exception_ptr fault;
+        const auto draw_some = [&] {
+            try {
+                PictureCodec codec(request_.codec);
+                for (std::size_t k; (k = next++) < pictures.size();) finish(pictures[k], workers, threads, codec);
+            } catch (...) {
+                const std::scoped_lock lock(mutex_);
+                if (!fault) fault = std::current_exception();
+                next = pictures.size();
+            }
+        };
+        {
+            std::vector<std::jthread> others;
+            for (std::size_t w = 1; w < workers; ++w) others.emplace_back(draw_some);
+            draw_some();
+        }
+        if (fault) std::rethrow_exception(fault);
+    }
+
+    /// One picture, whatever becomes of it. What concerns the whole batch is thrown.
+    void finish(std::size_t index, std::size_t workers, int threads, PictureCodec& codec) {
+        BatchPicture& picture = report_.pictures[index];
+        try {
+            picture.state = drawn(picture, workers, threads, codec);
+        } catch (const Error& error) {
+            if (error.code() == ErrorCode::cancelled) throw;
+            if (error.code() == ErrorCode::bad_usage && workers > 1) {
+                const std::scoped_lock lock(mutex_);
+                postponed_.push_back(index);
+                return;
+            }
+            picture.problem = error.problem();
+            picture.remedy = error.remedy();
+        } catch (const std::bad_alloc&) {
+            picture.problem = "out of memory";
+            picture.remedy = "ask for less --detail or a smaller --size";
+        }
+        const std::scoped_lock lock(mutex_);
+        ++finished_;
+        tell(&picture);
+    }
+
+    State drawn(const BatchPicture& picture, std::size_t workers, int threads, PictureCodec& codec) {
+        work_.check();
+        RunRequest run_request = request_.each;
+        run_request.max_memory_bytes /= workers;
+        run_request.input = request_.input / picture.input;
+        run_request.seed = own_seed(request_.each.seed, picture.input);
+        const fs::path target = request_.output / picture.result;
+        run_request.outputs = {target};
+        Ledger::Entry entry{content_hash(read_file(run_request.input, request_.each.max_memory_bytes)), key_, 0};
+        const Ledger::Entry* const made = ledger_->find(picture.result);
+        if (made) {
+            std::error_code missing;
+            entry.bytes = fs::file_size(target, missing);
+            if (!missing && *made == entry) return State::up_to_date;
+            run_request.force = true;  // our own, stale or damaged
+        }
+        if (request_.each.dry_run) return State::done;
+        make_folder(target.parent_path());
+        entry.bytes = run_one(run_request, threads, codec).outputs.front().bytes;
+        ledger_->add(picture.result, entry);
+        return State::done;
+    }
+
+    RunReport run_one(const RunRequest& run_request, int threads, PictureCodec& codec) {
+        bool writing = false;
+        Work work;
+        work.stop = work_.stop;
+        work.threads = threads;
+        work.progress = [&](std::string_view step, double) {
+            if ((step == "writing") != writing) set_writing(writing = !writing);
+        };
+        try {
+            RunReport report = run(run_request, codec, work);
+            if (writing) set_writing(false);
+            return report;
+        } catch (...) {
+            if (writing) set_writing(false);
+            throw;
+        }
+    }
+
+    void set_writing(bool begins) {
+        const std::scoped_lock lock(mutex_);
+        writing_ += begins ? 1 : -1;
+        tell(nullptr);
+    }
+    void tell(const BatchPicture* picture) {
+        if (observer_) observer_({finished_, report_.pictures.size(), writing_ > 0, picture});
+    }
+
+    void write_reports() const {
+        ledger_->compact();
+        const auto write = [&](const char* name, const std::string& text) {
+            write_file_atomically(request_.output / name, std::as_bytes(std::span(text)));
+        };
+        write("report.json", batch_report_json(report_));
+        write("index.html", contact_sheet_html(report_, request_.input, request_.output));
+    }
+
+    const BatchRequest& request_;
+    const std::function<void(const BatchProgress&)>& observer_;
+    const Work& work_;
+    std::string key_;
+    BatchReport report_;
+    std::optional<Ledger> ledger_;
+    std::vector<std::size_t> postponed_;
+    std::size_t finished_ = 0;
+    int writing_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+std::size_t BatchReport::count(State state) const {
+    return std::size_t(std::count_if(pictures.begin(), pictures.end(),
+                                     [state](const BatchPicture& picture) { return picture.state == state; }));
+}
+
+BatchReport run_batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer,
+                      const Work& work) {
+    return Batch(request, observer, work).report();
+}
+
+}  // namespace dstylize

@@ -1,0 +1,102 @@
+#include "pipeline/batch_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "pipeline/version.h"
+
+namespace dstylize {
+namespace {
+
+namespace fs = std::filesystem;
+using State = BatchPicture::State;
+
+std::string_view state_name(State state) {
+    return state == State::done ? "done" : state == State::up_to_date ? "up to date" : "failed";
+}
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&': out += "&amp;"; break;
+            case '<': out += "&lt;"; break;
+            case '>': out += "&gt;"; break;
+            case '"': out += "&quot;"; break;
+            default: out += c;
+        }
+    return out;
+}
+
+/// A path as a relative URL: whatever could mean something else is written as %XX.
+std::string url(const fs::path& path) {
+    std::string out;
+    for (const char c : path.generic_string()) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' ||
+                           c == '.' || c == '-' || c == '_';
+        out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out.find(':') == std::string::npos ? out : "./" + out;
+}
+
+constexpr std::string_view kHead = R"(<!doctype html>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>dstylize: contact sheet</title>
+<style>
+body { margin: 2rem; font: 15px/1.4 system-ui, sans-serif; color: #222; background: #f6f5f2; }
+section { display: grid; grid-template-columns: repeat(auto-fill, minmax(22rem, 1fr)); gap: 1.5rem; }
+figure { margin: 0; padding: .75rem; background: #fff; border: 1px solid #ddd; }
+figure div { display: grid; grid-template-columns: 1fr 1fr; gap: .5rem; }
+img { width: 100%; height: 14rem; object-fit: contain; background: #eee; }
+figcaption { margin-top: .5rem; overflow-wrap: anywhere; }
+.failed { border-color: #b3261e; }
+.failed b { color: #b3261e; }
+</style>
+)";
+
+std::string figure(const BatchPicture& picture, const fs::path& to_input) {
+    const bool failed = picture.state == State::failed;
+    const std::string before = url(to_input / picture.input), after = url(picture.result);
+    std::string out = fmt::format("<figure{}><div><a href=\"{}\"><img loading=\"lazy\" alt=\"before\" src=\"{}\"></a>",
+                                  failed ? " class=\"failed\"" : "", before, before);
+    if (!failed) out += fmt::format("<a href=\"{}\"><img loading=\"lazy\" alt=\"after\" src=\"{}\"></a>", after, after);
+    out += fmt::format("</div><figcaption>{}", escaped(picture.input));
+    if (failed) out += fmt::format("<br><b>{}</b>: {}", escaped(picture.problem), escaped(picture.remedy));
+    return out + "</figcaption></figure>\n";
+}
+
+}  // namespace
+
+std::string batch_report_json(const BatchReport& report) {
+    using nlohmann::ordered_json;
+    ordered_json tree;
+    tree["program"] = fmt::format("dstylize {}", version());
+    tree["style"] = report.style;
+    for (const State state : {State::done, State::up_to_date, State::failed})
+        tree[std::string(state_name(state))] = report.count(state);
+    tree["pictures"] = ordered_json::array();
+    for (const BatchPicture& picture : report.pictures) {
+        ordered_json row{{"input", picture.input}, {"result", picture.result}, {"state", state_name(picture.state)}};
+        if (picture.state == State::failed) {
+            row["problem"] = picture.problem;
+            row["remedy"] = picture.remedy;
+        }
+        tree["pictures"].push_back(row);
+    }
+    return tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string contact_sheet_html(const BatchReport& report, const fs::path& input, const fs::path& output) {
+    const fs::path to_input = fs::proximate(fs::absolute(input), fs::absolute(output));
+    std::string out(kHead);
+    out += fmt::format("<h1>{}</h1>\n<p>{} drawn, {} up to date, {} failed.</p>\n<section>\n", escaped(report.style),
+                       report.count(State::done), report.count(State::up_to_date), report.count(State::failed));
+    for (const bool failed : {true, false})
+        for (const BatchPicture& picture : report.pictures)
+            if ((picture.state == State::failed) == failed) out += figure(picture, to_input);
+    return out + "</section>\n";
+}
+
+}  // namespace dstylize

@@ -1,0 +1,157 @@
+// A folder of pictures as one run.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "contract/app/app_fixture.h"
+
+namespace dstylize::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+class FolderTest : public AppTest {
+  protected:
+    FolderTest() {
+        fs::create_directories(folder_ / "photos/sea/deep");
+        write_picture(folder_ / "photos/a.png", scene(kSize));
+        write_picture(folder_ / "photos/sea/b.png", scene({64, 80}));
+        write_picture(folder_ / "photos/sea/deep/c d&.png", flat({40, 40}, {90, 120, 200, 255}));
+        std::ofstream(folder_ / "photos/notes.txt") << "no picture";
+    }
+    /// State of every picture of the last run.
+    std::map<std::string, std::string> states(const std::string& out = "out") const {
+        std::map<std::string, std::string> states;
+        const json tree = json::parse(std::ifstream(folder_ / out / "report.json"));
+        for (const json& row : tree["pictures"]) states[row["input"]] = row["state"];
+        return states;
+    }
+    Outcome draw_all(Words more = {}) const {
+        Words words{"photos", "out"};
+        words.insert(words.end(), more.begin(), more.end());
+        return draw(words);
+    }
+    static std::string text(const fs::path& path) {
+        std::ifstream file(path);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+};
+
+TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
+    const Outcome outcome = draw_all();
+    expect_done(outcome);
+    EXPECT_NE(outcome.out.find("drawn             3"), std::string::npos) << outcome.out;
+    EXPECT_EQ(read_picture(folder_ / "out/a.png").picture.extent(), kSize);
+    EXPECT_EQ(read_picture(folder_ / "out/sea/b.png").picture.extent(), (Extent{64, 80}));
+    EXPECT_TRUE(fs::exists(folder_ / "out/sea/deep/c d&.png"));
+    EXPECT_FALSE(fs::exists(folder_ / "out/notes.png"));
+    EXPECT_EQ(states(), (std::map<std::string, std::string>{
+                            {"a.png", "done"}, {"sea/b.png", "done"}, {"sea/deep/c d&.png", "done"}}));
+    const std::string page = text(folder_ / "out/index.html");
+    EXPECT_NE(page.find("src=\"../photos/sea/deep/c%20d%26.png\""), std::string::npos);
+    EXPECT_NE(page.find("src=\"sea/deep/c%20d%26.png\""), std::string::npos);
+    EXPECT_NE(page.find("c d&amp;.png"), std::string::npos);
+}
+
+TEST_F(FolderTest, IsDrawnOnceAndAgainOnlyWhereSomethingChanged) {
+    expect_done(draw_all());
+    const auto drawn_at = fs::last_write_time(folder_ / "out/a.png");
+    const auto before = file_bytes(folder_ / "out/sea/b.png");
+    expect_done(draw_all());
+    EXPECT_EQ(states()["a.png"], "up to date");
+    EXPECT_EQ(fs::last_write_time(folder_ / "out/a.png"), drawn_at);
+
+    write_picture(folder_ / "photos/a.png", scene({80, 60}));                // another picture
+    std::ofstream(folder_ / "out/sea/b.png", std::ios::trunc) << "damaged";  // another result
+    expect_done(draw_all());
+    EXPECT_EQ(states()["a.png"], "done");
+    EXPECT_EQ(states()["sea/b.png"], "done");
+    EXPECT_EQ(states()["sea/deep/c d&.png"], "up to date");
+    EXPECT_TRUE(file_bytes(folder_ / "out/sea/b.png") == before);
+
+    expect_done(draw_all({"--set", "width.widest=3"}));
+    for (const auto& [picture, state] : states()) EXPECT_EQ(state, "done") << picture;
+}
+
+TEST_F(FolderTest, GoesOnPastBadPicturesAndNamesThem) {
+    std::ofstream(folder_ / "photos/sea/bad.jpg") << "no JPEG";
+    const Outcome outcome = draw_all();
+    EXPECT_EQ(outcome.exit_code, 5);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find("photos/sea/bad.jpg"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.out.find("failed            1"), std::string::npos) << outcome.out;
+    EXPECT_EQ(states()["sea/bad.jpg"], "failed");
+    EXPECT_EQ(states()["sea/deep/c d&.png"], "done");
+    EXPECT_FALSE(fs::exists(folder_ / "out/sea/bad.png"));
+    const std::string page = text(folder_ / "out/index.html");
+    EXPECT_LT(page.find("sea/bad.jpg"), page.find("src=\"a.png\"")) << "what failed comes first";
+}
+
+TEST_F(FolderTest, GivesTheSameBytesOnAnyThreadsAndWhateverElseIsThere) {
+    expect_done(draw_all({"--threads", "1"}));
+    fs::remove_all(folder_ / "photos/sea/deep");
+    write_picture(folder_ / "photos/0.png", scene({50, 50}));
+    expect_done(draw({"photos", "other", "--threads", "3"}));
+    for (const char* name : {"a.png", "sea/b.png"})
+        EXPECT_TRUE(file_bytes(folder_ / "out" / name) == file_bytes(folder_ / "other" / name)) << name;
+    write_picture(folder_ / "photos/sea/a.png", scene(kSize));
+    expect_done(draw({"photos", "other"}));
+    EXPECT_FALSE(file_bytes(folder_ / "other/a.png") == file_bytes(folder_ / "other/sea/a.png"))
+        << "each picture has a seed of its own";
+}
+
+TEST_F(FolderTest, TakesPatternsAndFormats) {
+    write_picture(folder_ / "photos/sea/a.tif", scene({30, 30}));
+    expect_done(draw_all({"--include", "a.*", "--include", "sea/deep/*", "--format", "json"}));
+    EXPECT_EQ(states(), (std::map<std::string, std::string>{
+                            {"a.png", "done"}, {"sea/a.tif", "done"}, {"sea/deep/c d&.png", "done"}}));
+    EXPECT_TRUE(fs::exists(folder_ / "out/sea/a.json"));
+}
+
+TEST_F(FolderTest, KeepsTheExtensionsOfPicturesWhoseResultsWouldBeOne) {
+    write_picture(folder_ / "photos/a.tif", scene({30, 30}));
+    expect_done(draw_all());
+    EXPECT_EQ(read_picture(folder_ / "out/a.tif.png").picture.extent(), (Extent{30, 30}));
+    EXPECT_EQ(read_picture(folder_ / "out/a.png.png").picture.extent(), kSize);
+    EXPECT_FALSE(fs::exists(folder_ / "out/a.png"));
+}
+
+TEST_F(FolderTest, LeavesItsOwnResultsAndWhatIsHiddenOutOfTheInput) {
+    fs::create_directories(folder_ / "photos/.cache");
+    write_picture(folder_ / "photos/.cache/x.png", scene({30, 30}));
+    fs::create_directory_symlink("..", folder_ / "photos/sea/loop");
+    for (int times = 0; times < 2; ++times) expect_done(draw({"photos", "photos/drawn"}));
+    EXPECT_EQ(states("photos/drawn").size(), 3u);
+}
+
+TEST_F(FolderTest, SaysInADryRunWhatItWouldDoAndDoesNothing) {
+    const Outcome outcome = draw_all({"--dry-run"});
+    expect_done(outcome);
+    EXPECT_NE(outcome.out.find("to be drawn       3"), std::string::npos) << outcome.out;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(FolderTest, ReplacesNothingThatItDidNotMake) {
+    fs::create_directory(folder_ / "out");
+    write_picture(folder_ / "out/a.png", flat({5, 5}, {1, 2, 3, 255}));
+    const auto before = file_bytes(folder_ / "out/a.png");
+    EXPECT_EQ(draw_all().exit_code, 5);
+    EXPECT_TRUE(file_bytes(folder_ / "out/a.png") == before);
+    expect_done(draw_all({"--force"}));
+    EXPECT_FALSE(file_bytes(folder_ / "out/a.png") == before);
+}
+
+TEST_F(FolderTest, RefusesFoldersThatCannotBeThese) {
+    expect_error(draw({"photos", "in.png"}), 2, {"in.png", "is a file"});
+    expect_error(draw({"photos", "photos"}), 2, {"photos", "also the input"});
+    expect_error(draw({"photos"}), 2, {"photos", "give OUT"});
+    expect_error(draw({"photos", "out", "-o", "b.svg"}), 2, {"photos", "--format"});
+    expect_error(draw({"photos", "out", "--set", "width.widset=3"}), 2, {"widset"});
+    expect_error(draw({"photos", "out", "--mask", "none.png"}), 3, {"none.png"});
+    expect_error(draw({"photos", "out", "--include", "*.webp"}), 3, {"photos", "no pictures", "--include"});
+    expect_error(draw({"in.png", "out.png", "--include", "*.webp"}), 2, {"in.png", "--include"});
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace dstylize::test
