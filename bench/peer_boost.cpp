@@ -109,6 +109,8 @@ LabelColumn boost_labels(const WeightedLattice& graph, NodeId source) {
     return {std::move(sum), {}};
 }
 
+bool boost_is_here() { return true; }
+
 }  // namespace dstylize
 
 #else
@@ -116,6 +118,8 @@ LabelColumn boost_labels(const WeightedLattice& graph, NodeId source) {
 namespace dstylize {
 
 LabelColumn boost_labels(const WeightedLattice&, NodeId) { return {}; }
+
+bool boost_is_here() { return false; }
 
 }  // namespace dstylize
 

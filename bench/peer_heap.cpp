@@ -172,7 +172,8 @@ LabelColumn dijkstra(const WeightedLattice& g, NodeId source, const Rule& rule) 
     best[edges.place(index(source))] = Label{};
     heap.push({Label{}, edges.place(index(source))});
     while (!heap.empty()) {
-        const auto [label, u] = heap.top();
+        const Label label = heap.top().label;
+        const std::uint32_t u = heap.top().node;
         heap.pop();
         if (best[u] < label) continue;
         edges(u, [&](std::uint32_t v, std::uint32_t height, std::uint32_t length5) {

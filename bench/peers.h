@@ -21,6 +21,7 @@ std::vector<NodeId> heap_stipples(const GraphDistanceRequest& request);
 /// whose edges are made as they are asked for. It keeps predecessors, too: Boost has no way without.
 /// Empty when this build has no Boost.
 LabelColumn boost_labels(const WeightedLattice& graph, NodeId source);
+bool boost_is_here();
 
 /// OpenCV's intelligent scissors from a source over the same weights, for time alone: its edges cost the
 /// weight of the node that they enter, in its own units, and it tells no labels.
