@@ -1,139 +1,317 @@
-// The tile planner with one and two threads beside the bucket planner and the readable heap, on maps of
-// several kinds: nanoseconds per node, all included. Fails below 0.85 of a bar. `--json` for machines,
-// `--mega N` for another size than 4 million nodes.
-#include <algorithm>
+// The tile planner with one and two threads beside its peers, on maps of several kinds: nanoseconds per node,
+// all included. Labels must be equal, or it exits with 2; below 0.85 of a bar it exits with 1.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "core/error.h"
 #include "graph/bucket_planner.h"
 #include "graph/height_planes.h"
+#include "graph/scattered_lattice.h"
 #include "graph/tile_planner.h"
+#include "peers.h"
+#include "weight_maps.h"
 
 namespace dstylize {
 namespace {
 
-/// Cheap to compute, the same everywhere.
-std::uint32_t hash(std::uint32_t x, std::uint32_t y, std::uint32_t salt) {
-    std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ salt * 0xc2b2ae3du;
-    h = (h ^ h >> 15) * 0x2c1b3c6du;
-    return h ^ h >> 12;
+constexpr double kTolerance = 0.85;
+
+/// Peers give other labels: then times mean nothing.
+struct Disagreement : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+enum class Edges { weights8, planes8, planes16, falling16, irregular };
+
+/// Ratios that are to be reached: time of a peer to that of tiles with one thread and with two. 0: none.
+struct Bars {
+    double heap = 0, heap_by_two = 0, boost = 0, boost_by_two = 0, two_threads = 0;
+};
+
+struct Row {
+    std::string map;
+    Metric metric;
+    Edges edges;
+    Bars bars;
+};
+
+/// Nanoseconds per node; 0 where that peer does not apply.
+struct Times {
+    double tiles = 0, tiles_by_two = 0, bucket = 0, heap = 0, boost = 0, scissors = 0;
+};
+
+std::string_view name_of(Edges edges) {
+    constexpr std::array<std::string_view, 5> kNames{"weights, 8", "planes, 8", "planes, 16", "planes, 16, falling",
+                                                     "irregular, 12"};
+    return kNames[std::size_t(edges)];
 }
 
-/// Regions with edges, shading within them, grain: what a photograph's weights are like.
-int scene(int i, int j) {
-    double tone = 0;
-    for (int octave = 3; octave < 9; ++octave) {
-        const int cell = 1 << octave;
-        const double fx = double(i % cell) / cell, fy = double(j % cell) / cell;
-        const auto at = [&](int dx, int dy) {
-            return double(hash(std::uint32_t(i / cell + dx), std::uint32_t(j / cell + dy), std::uint32_t(octave)) >>
-                          24);
-        };
-        const double top = at(0, 0) + fx * (at(1, 0) - at(0, 0)), bottom = at(0, 1) + fx * (at(1, 1) - at(0, 1));
-        tone += (top + fy * (bottom - top)) / 255 * std::pow(0.6, 8 - octave);
+std::string name_of(const Row& row) {
+    return fmt::format("{}, {}, {}", row.map, metric_names()[std::size_t(row.metric)], name_of(row.edges));
+}
+
+WeightedLattice graph_of(const Row& row, double mega) {
+    const bool sixteen = row.edges == Edges::planes16 || row.edges == Edges::falling16;
+    WeightedLattice g = weight_map(row.map, mega, sixteen ? Neighbourhood::square16 : Neighbourhood::square8);
+    if (row.edges == Edges::weights8) return g;
+    if (row.edges == Edges::irregular) {
+        const Extent e = g.lattice.extent();
+        g.lattice = scattered_lattice(e, Grid<std::uint8_t>(e, 1), Noise(1, Purpose::jitter), {});
+        return g;
     }
-    const double edges = std::fabs(std::fmod(tone * 4, 1.0) - 0.5) * 2;
-    return 1 + int(200 * edges) + int(hash(std::uint32_t(i), std::uint32_t(j), 1) % 50);
-}
-
-NodeWeight map_weight(const std::string& kind, int side, int i, int j) {
-    if (kind == "noise") return NodeWeight(1 + hash(std::uint32_t(i), std::uint32_t(j), 2) % 255);
-    if (kind == "constant") return 100;
-    if (kind == "maze") {  // corridors 6 nodes wide: each cell is open to the right or downwards
-        const bool wall_x = i % 8 > 5, wall_y = j % 8 > 5, last_x = i / 8 >= side / 8 - 1,
-                   last_y = j / 8 >= side / 8 - 1;
-        const bool right = last_y || (!last_x && hash(std::uint32_t(i / 8), std::uint32_t(j / 8), 3) % 2 == 0);
-        return (wall_x && wall_y) || (wall_x && !right) || (wall_y && right) ? kImpassable : NodeWeight{20};
-    }
-    return NodeWeight(std::min(255, scene(i, j)));
-}
-
-WeightedLattice map_of(const std::string& kind, int mega, Neighbourhood neighbourhood) {
-    const int side = int(std::sqrt(double(mega) * 1e6));
-    WeightedLattice g;
-    g.lattice = Lattice({side, side}, neighbourhood);
-    g.weight.resize(g.lattice.node_count());
-    for (std::uint32_t n = 0; n < g.weight.size(); ++n)
-        g.weight[n] = map_weight(kind, side, g.lattice.column(NodeId{n}), g.lattice.row(NodeId{n}));
-    g.weight[0] = 1;
+    DirectionalCost cost;
+    cost.strength = 1.5f;
+    cost.flow = Grid<Vec2f>(g.lattice.extent(), Vec2f{0.6f, 0.5f});
+    if (row.edges == Edges::falling16) cost.step_factor = downward_bias(g.lattice, 1.2f);
+    build_height_planes(g, cost, {});
     return g;
 }
 
-/// The least of so many times.
-double nanoseconds(const Planner& planner, const WeightedLattice& g, Metric metric, int threads, int times) {
-    const Source source[] = {{NodeId{0}, 0, 0}};
-    Work work;
-    work.threads = threads;
-    double least = 1e30;
-    for (int k = 0; k < times; ++k) {
+/// The least time of so many runs, and what the last one gave.
+template <class Run>
+auto timed(std::size_t nodes, int times, double& nanoseconds, const Run& run) {
+    nanoseconds = 1e30;
+    for (;;) {
         const auto begin = std::chrono::steady_clock::now();
-        const Plan plan = planner.plan({g, source, metric}, work);
+        auto result = run();
         const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-        least = std::min(least, took.count() / double(plan.label.size()));
+        nanoseconds = std::min(nanoseconds, took.count() / double(nodes));
+        if (--times <= 0) return result;
     }
-    return least;
 }
 
-struct Row {
-    std::string name, map;
-    Neighbourhood neighbourhood;
-    Metric metric;
-    double least_ratio;  ///< to the heap, with one thread; 0: no bar
-    bool planes = false, falling = false;
+Plan planned(const Planner& planner, const WeightedLattice& g, Metric metric, int threads, int times,
+             double& nanoseconds) {
+    const Source source[] = {{map_source(g.lattice), 0, 0}};
+    Work work;
+    work.threads = threads;
+    return timed(g.weight.size(), times, nanoseconds, [&] { return planner.plan({g, source, metric}, work); });
+}
+
+Times measured(const Row& row, double mega) {
+    const WeightedLattice g = graph_of(row, mega);
+    const std::size_t nodes = g.weight.size();
+    const NodeId source = map_source(g.lattice);
+    Times t;
+    const bool by_tiles = row.edges != Edges::irregular && (row.metric == Metric::sum || row.metric == Metric::max_sum);
+    const int times = by_tiles ? 3 : 1;  // the rest goes to the buckets, and takes long
+    const Plan plan = planned(tile_planner(), g, row.metric, 1, times, t.tiles);
+    const auto check = [&](const LabelColumn& label, const char* peer) {
+        if (!(label == plan.label))
+            throw Disagreement(fmt::format("{} and the planner have other labels on {}", peer, name_of(row)));
+    };
+    check(planned(tile_planner(), g, row.metric, 2, times, t.tiles_by_two).label, "two threads");
+    if (by_tiles) check(planned(bucket_planner(), g, row.metric, 1, 1, t.bucket).label, "buckets");
+    check(timed(nodes, 1, t.heap, [&] { return heap_labels(g, source, row.metric); }), "the heap");
+    if (row.metric != Metric::sum || row.edges != Edges::weights8) return t;
+    if (boost_is_here()) check(timed(nodes, 1, t.boost, [&] { return boost_labels(g, source); }), "Boost");
+    if (row.map != "maze") timed(nodes, 1, t.scissors, [&] { return scissors_map(g, source), 0; });
+    return t;
+}
+
+/// The flood of the stippling; it has one thread, and no peer but the heap.
+Times measured_stippling(double mega, std::size_t& count) {
+    const WeightedLattice g = weight_map("portrait", mega, Neighbourhood::square4);
+    Grid<float> expense(g.lattice.extent());
+    for (std::size_t n = 0; n < expense.size(); ++n) expense[n] = float(g.weight[n]) / 255;
+    const NodeId start[] = {map_source(g.lattice)};
+    const GraphDistanceRequest request{expense, 10, start, {}};
+    Times t;
+    const auto ours = timed(g.weight.size(), 3, t.tiles, [&] { return graph_distance_stipples(request, {}); });
+    const auto theirs = timed(g.weight.size(), 1, t.heap, [&] { return heap_stipples(request); });
+    if (ours != theirs) throw Disagreement("the heap places other stipples");
+    count = ours.size();
+    return t;
+}
+
+std::string machine() {
+    std::ifstream cpu("/proc/cpuinfo");
+    for (std::string line; std::getline(cpu, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+/// Prints rows and keeps them for the file.
+class Report {
+  public:
+    explicit Report(double mega) : mega_(mega) {
+        const unsigned threads = std::thread::hardware_concurrency();
+        can_judge_two_ = threads >= 2;
+        json_ = {{"machine", machine()}, {"threads", threads}, {"megapixels", mega}, {"rows", nlohmann::json::array()}};
+        fmt::print("{} megapixels on {}, {} threads; nanoseconds per node, then ratios / bars\n", mega, machine(),
+                   threads);
+        fmt::print("{:<42}{:>7}{:>7}{:>7}{:>7}{:>7}{:>9}  {:>12}{:>12}{:>12}{:>12}{:>12}\n", "map, metric, edges",
+                   "tiles", "by two", "bucket", "heap", "Boost", "scissors", "heap", "by two", "Boost", "by two",
+                   "threads");
+    }
+
+    void add(const Row& row, std::string_view metric, std::string_view edges, const Times& t) {
+        struct Ratio {
+            const char* name;
+            double of, to, bar;
+            bool by_two;
+        };
+        const Ratio ratios[] = {{"heap", t.heap, t.tiles, row.bars.heap, false},
+                                {"heap_by_two", t.heap, t.tiles_by_two, row.bars.heap_by_two, true},
+                                {"boost", t.boost, t.tiles, row.bars.boost, false},
+                                {"boost_by_two", t.boost, t.tiles_by_two, row.bars.boost_by_two, true},
+                                {"two_threads", t.tiles, t.tiles_by_two, row.bars.two_threads, true}};
+        nlohmann::ordered_json record = {
+            {"map", row.map}, {"metric", metric}, {"edges", edges}, {"megapixels", mega_}, {"ns", ns_of(t)}};
+        bool ok = true;
+        std::string text;
+        for (const Ratio& r : ratios) {
+            const double ratio = r.of > 0 && r.to > 0 ? r.of / r.to : 0;
+            text += fmt::format("{:>12}", ratio == 0  ? "-"
+                                          : r.bar > 0 ? fmt::format("{:.3g} / {:g}", ratio, r.bar)
+                                                      : fmt::format("{:.3g}", ratio));
+            if (ratio == 0) continue;
+            record["ratios"][r.name] = ratio;
+            if (r.bar > 0) record["bars"][r.name] = r.bar;
+            ok = ok && (ratio >= kTolerance * r.bar || (r.by_two && !can_judge_two_));
+        }
+        record["ok"] = ok;
+        ok_ = ok_ && ok;
+        json_["rows"].push_back(record);
+        fmt::print("{:<42}{}  {}{}\n", fmt::format("{}, {}, {}", row.map, metric, edges), columns(t), text,
+                   ok ? "" : "  TOO SLOW");
+        std::fflush(stdout);
+    }
+
+    void write(const std::string& path) const {
+        std::ofstream file(path);
+        file << json_.dump(2) << '\n';
+        if (!file.flush()) throw Error(ErrorCode::cannot_write, path, "cannot be written", "");
+    }
+    bool ok() const { return ok_; }
+
+  private:
+    static nlohmann::ordered_json ns_of(const Times& t) {
+        nlohmann::ordered_json ns;
+        const auto put = [&](const char* name, double time) {
+            if (time > 0) ns[name] = time;
+        };
+        put("tiles", t.tiles), put("tiles_by_two", t.tiles_by_two), put("bucket", t.bucket);
+        put("heap", t.heap), put("boost", t.boost), put("scissors", t.scissors);
+        return ns;
+    }
+    static std::string columns(const Times& t) {
+        std::string out;
+        for (const double time : {t.tiles, t.tiles_by_two, t.bucket, t.heap, t.boost, t.scissors})
+            out += fmt::format("{:>{}}", time > 0 ? fmt::format("{:.1f}", time) : "-", out.size() < 35 ? 7 : 9);
+        return out;
+    }
+    double mega_;
+    bool can_judge_two_ = true, ok_ = true;
+    nlohmann::ordered_json json_;
 };
 
-bool measure(const Row& row, int mega, bool json) {
-    WeightedLattice g = map_of(row.map, mega, row.neighbourhood);
-    if (row.planes) {
-        DirectionalCost cost;
-        cost.strength = 1.5f;
-        cost.flow = Grid<Vec2f>(g.lattice.extent(), Vec2f{0.6f, 0.5f});
-        if (row.falling) cost.step_factor = downward_bias(g.lattice, 1.2f);
-        build_height_planes(g, cost, {});
+bool compare(double mega, const std::string& only, const std::string& json) {
+    constexpr Bars kSum{38, 62, 50, 80, 1.7};
+    const Row rows[] = {{"portrait", Metric::sum, Edges::weights8, kSum},
+                        {"noise", Metric::sum, Edges::weights8, {}},
+                        {"constant", Metric::sum, Edges::weights8, {}},
+                        {"maze", Metric::sum, Edges::weights8, {}},
+                        {"portrait", Metric::sum, Edges::planes8, {22, 40}},
+                        {"portrait", Metric::sum, Edges::planes16, {18, 30}},
+                        {"portrait", Metric::sum, Edges::falling16, {}},
+                        {"portrait", Metric::sum, Edges::irregular, {3}},
+                        {"portrait", Metric::max_sum, Edges::weights8, {15, 28}},
+                        {"noise", Metric::max_sum, Edges::weights8, {}},
+                        {"portrait", Metric::max_sum, Edges::planes16, {10, 18}},
+                        {"portrait", Metric::lexicographic, Edges::weights8, {12, 21}},
+                        {"portrait", Metric::blend, Edges::weights8, {}}};
+    if (!boost_is_here()) fmt::print("Boost is left out: libboost-graph-dev was not there when this was built\n");
+    Report report(mega);
+    for (const Row& row : rows)
+        if (name_of(row).find(only) != std::string::npos)
+            report.add(row, metric_names()[std::size_t(row.metric)], name_of(row.edges), measured(row, mega));
+    if (std::string("portrait, stippling").find(only) != std::string::npos) {
+        std::size_t stipples = 0;
+        const Times times = measured_stippling(mega, stipples);
+        report.add({"portrait", {}, {}, {3.3}}, "stippling", fmt::format("{} points", stipples), times);
     }
-    const double one = nanoseconds(tile_planner(), g, row.metric, 1, 3);
-    const double two = nanoseconds(tile_planner(), g, row.metric, 2, 3);
-    const double bucket = nanoseconds(bucket_planner(), g, row.metric, 1, 1);
-    const double heap = nanoseconds(reference_planner(), g, row.metric, 1, 1);
-    const bool ok = heap / one >= 0.85 * row.least_ratio;
-    const char* format = json ? "{\"map\":\"%s\",\"tiles\":%.1f,\"tiles2\":%.1f,\"bucket\":%.1f,\"heap\":%.1f,"
-                                "\"ratio\":%.1f,\"bar\":%.0f,\"ok\":%s}\n"
-                              : "%-32s %8.1f %8.1f %8.1f %8.1f %7.1f %6.0f  %s\n";
-    std::printf(format, row.name.c_str(), one, two, bucket, heap, heap / one, row.least_ratio,
-                json ? (ok ? "true" : "false") : (ok ? "" : "TOO SLOW"));
-    std::fflush(stdout);
+    report.write(json);
+    return report.ok();
+}
+
+/// How the time of a node grows with the picture; it should not.
+bool show_growth(double largest) {
+    fmt::print("nanoseconds per node on the portrait, one and two threads\n{:>10} {:>15} {:>15}\n", "megapixels", "sum",
+               "max-sum");
+    double sum_small = 0, max_sum_small = 0;
+    bool ok = true;
+    for (const double mega : {0.25, 1., 4., 24., 100., 200.}) {
+        if (mega > largest) break;
+        const WeightedLattice g = weight_map("portrait", mega, Neighbourhood::square8);
+        const int times = mega < 4 ? 9 : mega < 100 ? 3 : 1;
+        double sum = 0, sum_by_two = 0, max_sum = 0, max_sum_by_two = 0;
+        planned(tile_planner(), g, Metric::sum, 1, times, sum);
+        planned(tile_planner(), g, Metric::sum, 2, times, sum_by_two);
+        planned(tile_planner(), g, Metric::max_sum, 1, times, max_sum);
+        planned(tile_planner(), g, Metric::max_sum, 2, times, max_sum_by_two);
+        if (sum_small == 0) sum_small = sum, max_sum_small = max_sum;
+        const bool good =
+            mega != 24 || (sum * kTolerance <= 1.2 * sum_small && max_sum * kTolerance <= 1.4 * max_sum_small);
+        fmt::print("{:>10} {:>7.1f} {:>7.1f} {:>7.1f} {:>7.1f}{}\n", mega, sum, sum_by_two, max_sum, max_sum_by_two,
+                   good ? "" : "  TOO MUCH");
+        std::fflush(stdout);
+        ok = ok && good;
+    }
     return ok;
+}
+
+/// For peers in other languages: weights as bytes, and beside them FILE.sums, what `sum` must come to.
+void write_map(const std::string& path, const std::string& kind, double mega) {
+    const WeightedLattice g = weight_map(kind, mega, Neighbourhood::square8);
+    const NodeId source = map_source(g.lattice);
+    write_bytes(g, path);
+    std::ofstream file(path + ".sums", std::ios::binary);
+    const LabelColumn labels = heap_labels(g, source, Metric::sum);
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+        const auto sum = std::uint32_t(labels[n].sum);
+        file.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+    }
+    if (!file.flush()) throw Error(ErrorCode::cannot_write, path + ".sums", "cannot be written", "");
+    fmt::print("{} {} {} {}\n", g.lattice.extent().x, g.lattice.extent().y, g.lattice.column(source),
+               g.lattice.row(source));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("The tile planner beside its peers, on maps of several kinds.");
+    double mega = 4, largest = 100;
+    std::string json = DSTYLIZE_BENCH_JSON, only, map_file, kind = "portrait";
+    app.add_option("--mega", mega, "million nodes (4)")->check(CLI::Range(0.05, 200.));
+    app.add_option("--only", only, "rows whose name has this in it");
+    app.add_option("--json", json, "where the figures go, too");
+    app.add_option("--growth", largest, "instead: how time grows, up to so many million nodes (100)")->expected(0, 1);
+    app.add_option("--write-map", map_file, "instead: writes the weights to a file; prints width, height, source");
+    app.add_option("--map", kind, "which, for --write-map")
+        ->check(CLI::IsMember({"portrait", "noise", "constant", "maze"}));
+    CLI11_PARSE(app, argc, argv);
+    if (!map_file.empty()) return write_map(map_file, kind, mega), 0;
+    if (app.count("--growth") != 0) return show_growth(largest > 0 ? largest : 100) ? 0 : 1;
+    return compare(mega, only, json) ? 0 : 1;
 }
 
 }  // namespace
 }  // namespace dstylize
 
 int main(int argc, char** argv) {
-    using namespace dstylize;
-    bool json = false, ok = true;
-    int mega = 4;
-    for (int k = 1; k < argc; ++k) {
-        const std::string argument = argv[k];
-        if (argument == "--json") json = true;
-        if (argument == "--mega" && k + 1 < argc) mega = std::atoi(argv[k + 1]);
+    try {
+        return dstylize::run(argc, argv);
+    } catch (const std::exception& e) {
+        std::fputs("planner_bench: ", stderr);
+        std::fputs(e.what(), stderr);
+        std::fputs("\n", stderr);
+        return 2;
     }
-    constexpr Neighbourhood k8 = Neighbourhood::square8, k16 = Neighbourhood::square16;
-    const Row rows[] = {{"sum, scene", "scene", k8, Metric::sum, 38},
-                        {"sum, noise", "noise", k8, Metric::sum, 0},
-                        {"sum, constant", "constant", k8, Metric::sum, 0},
-                        {"sum, maze", "maze", k8, Metric::sum, 0},
-                        {"sum, 8 planes", "scene", k8, Metric::sum, 22, true},
-                        {"sum, 16 planes", "scene", k16, Metric::sum, 18, true},
-                        {"sum, 16 planes, falling", "scene", k16, Metric::sum, 0, true, true},
-                        {"max-sum, scene", "scene", k8, Metric::max_sum, 15},
-                        {"max-sum, 16 planes", "scene", k16, Metric::max_sum, 10, true}};
-    if (!json)
-        std::printf("ns per node, %d million nodes\n%-32s %8s %8s %8s %8s %7s %6s\n", mega, "", "tiles", "2 thr.",
-                    "bucket", "heap", "heap/1", "bar");
-    for (const Row& row : rows) ok = measure(row, mega, json) && ok;
-    return ok ? 0 : 1;
 }
