@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "graph/detail_tile_costs-inl.h"
+#include "graph/detail_tile_low_parents-inl.h"
 #include "graph/detail_tile_parents-inl.h"
 #include "graph/detail_tile_sweeps-inl.h"
 

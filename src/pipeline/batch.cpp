@@ -32,6 +32,16 @@ std::uint64_t own_seed(std::uint64_t seed, const fs::path& relative) {
     return std::stoull(hash_of(fmt::format("{} {}", seed, relative.generic_string())).substr(0, 15), nullptr, 16);
 }
 
+/// Whether the name has an extension of a format that we write.
+bool is_file_name(const fs::path& path) {
+    try {
+        format_for(path);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 void check_folders(const BatchRequest& request) {
     const std::string name = request.output.string();
     std::error_code ignored;
@@ -41,6 +51,9 @@ void check_folders(const BatchRequest& request) {
         throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and its drawings need one", "give OUT");
     if (fs::exists(request.output, ignored) && !fs::is_directory(request.output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is a file, and the input is a folder",
+                    "give a folder for the drawings");
+    if (!fs::exists(request.output, ignored) && is_file_name(request.output))
+        throw Error(ErrorCode::bad_usage, name, "names a file, and the input is a folder",
                     "give a folder for the drawings");
     if (fs::equivalent(request.input, request.output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is also the input", "give another folder for the drawings");

@@ -143,6 +143,7 @@ TEST_F(FolderTest, ReplacesNothingThatItDidNotMake) {
 
 TEST_F(FolderTest, RefusesFoldersThatCannotBeThese) {
     expect_error(draw({"photos", "in.png"}), 2, {"in.png", "is a file"});
+    expect_error(draw({"photos", "all.png"}), 2, {"all.png", "names a file"});
     expect_error(draw({"photos", "photos"}), 2, {"photos", "also the input"});
     expect_error(draw({"photos"}), 2, {"photos", "give OUT"});
     expect_error(draw({"photos", "out", "-o", "b.svg"}), 2, {"photos", "--format"});

@@ -80,7 +80,7 @@ const WrongUsage kWrong[] = {
     {"output_is_the_mask", {"in.png", "half.png", "--mask", "half.png", "--force"}, {"half.png", "is also an input"}},
     {"output_named_twice", {"in.png", "out.png", "-o", "./out.png"}, {"./out.png", "twice"}},
     {"output_is_a_folder", {"in.png", "folder"}, {"folder", "is a folder"}},
-    {"input_is_a_folder", {"folder", "out.png"}, {"folder", "folders are not drawn yet"}},
+    {"input_is_a_folder", {"folder", "out.png"}, {"out.png", "names a file", "folder"}},
     {"transparent_jpeg", {"in.png", "out.jpg", "--background", "none"}, {"out.jpg", "transparent"}},
     {"background_no_colour", {"in.png", "out.png", "--background", "#12"}, {"--background #12"}},
     {"background_missing", {"in.png", "out.png", "--background", "no.png"}, {"no.png", "no such file"}, 3},
