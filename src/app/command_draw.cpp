@@ -28,6 +28,9 @@ void refuse_folder(const std::filesystem::path& input) {
 RunReport run_and_report(const RunRequest& request, const Arguments& arguments, PictureCodec& codec,
                          Interrupt& interrupt) {
     check_standard_output(request, arguments);
+    if (arguments.styles.size() > 1)
+        throw Error(ErrorCode::bad_usage, "--style " + arguments.styles[1], "is one style too many for one picture",
+                    "give one; several are for folders");
     Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
     Work work;
     work.stop = interrupt.token();

@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "pipeline/batch_report.h"
+#include "pipeline/style_file.h"
 
 namespace dstylize::app {
 namespace {
@@ -36,16 +37,13 @@ std::string summary(const BatchRequest& batch, const BatchReport& report, double
     return out + fmt::format("in {:.1f} s; see {}\n", seconds, (batch.output / "index.html").string());
 }
 
-}  // namespace
-
-ExitCode draw_folder(const Arguments& arguments) {
-    const BatchRequest batch = batch_request(arguments);
-    Interrupt interrupt;
+/// One batch; the bars of several follow each other.
+BatchReport run_and_tell(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt) {
     Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
     Work work;
     work.stop = interrupt.token();
     work.threads = arguments.threads;
-    const BatchReport report = run_batch(
+    BatchReport report = run_batch(
         batch,
         [&](const BatchProgress& now) {
             interrupt.set_writing(now.writing);
@@ -58,11 +56,40 @@ ExitCode draw_folder(const Arguments& arguments) {
         },
         work);
     progress.finish();
-    if (arguments.json)
-        print(batch_report_json(report));
-    else if (!arguments.quiet)
-        print(summary(batch, report, progress.seconds()));
-    return report.count(State::failed) > 0 ? kSomeFailed : kDone;
+    if (!arguments.json && !arguments.quiet) print(summary(batch, report, progress.seconds()));
+    return report;
+}
+
+/// A batch for each style; the results of several lie in a folder each.
+std::vector<BatchRequest> batches(const Arguments& arguments) {
+    BatchRequest batch = batch_request(arguments);
+    if (arguments.styles.size() < 2) return {batch};
+    std::vector<BatchRequest> out;
+    batch.leave_out = batch.output;
+    for (const std::string& style : arguments.styles) {
+        batch.each.style = style;
+        batch.output = batch.leave_out / load_style(style, batch.each.settings, batch.each.user_styles).name;
+        for (const BatchRequest& other : out)
+            if (other.output == batch.output)
+                throw Error(ErrorCode::bad_usage, "--style " + style, "is given twice", "leave one of them out");
+        out.push_back(batch);
+    }
+    return out;
+}
+
+}  // namespace
+
+ExitCode draw_folder(const Arguments& arguments) {
+    const std::vector<BatchRequest> requests = batches(arguments);
+    Interrupt interrupt;
+    ExitCode code = kDone;
+    std::vector<BatchReport> reports;
+    for (const BatchRequest& batch : requests) {
+        reports.push_back(run_and_tell(batch, arguments, interrupt));
+        if (reports.back().count(State::failed) > 0) code = kSomeFailed;
+    }
+    if (arguments.json) print(batch_report_json(reports));
+    return code;
 }
 
 }  // namespace dstylize::app

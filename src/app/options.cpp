@@ -94,8 +94,9 @@ CLI::Option* Parser::add(CLI::Option* option, const char* group, bool common) {
 
 void Parser::add_style_options() {
     Arguments& a = arguments_;
-    add(app_.add_option("-s,--style", a.style, "vine, ink, …, or a .toml file; default vine"), kStyle)
-        ->type_name("NAME");
+    add(app_.add_option("-s,--style", a.styles, "vine, ink, …, or a .toml file; default vine"), kStyle)
+        ->type_name("NAME")
+        ->allow_extra_args(false);
     add(app_.add_option("--set", a.settings, "change a parameter, as stage.tone.carry=0.6"), kStyle)
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
@@ -261,7 +262,7 @@ namespace {
 RunRequest picture_request(const Arguments& a) {
     RunRequest request;
     set_output_options(request, a);
-    if (!a.style.empty()) request.style = a.style;
+    if (!a.styles.empty()) request.style = a.styles[0];
     request.user_styles = user_style_folder();
     for (const std::string& setting : a.settings) {
         const std::size_t equals = setting.find('=');
@@ -342,7 +343,7 @@ RunRequest write_request(const Arguments& a) {
     if (files > 0) request.outputs.insert(request.outputs.begin(), a.names.back());
     if (files > 1) request.input = a.names[words];
     const bool on_picture = files > 1;
-    if (a.style.empty()) request.style = on_picture ? "lichen-letters" : "letters";
+    if (a.styles.empty()) request.style = on_picture ? "lichen-letters" : "letters";
     if (a.background.empty() && on_picture) request.background.kind = Background::Kind::input;
     return request;
 }

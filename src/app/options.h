@@ -12,8 +12,8 @@ namespace dstylize::app {
 /// What the options say, as text where the library parses it.
 struct Arguments {
     std::vector<std::string> names;  ///< IN and OUT, or OLD, IN and OUT
-    std::vector<std::string> outputs, settings, roots, patterns;
-    std::string style, importance, importance_mode, mask, endpoints, background, place, blend, show;
+    std::vector<std::string> styles, outputs, settings, roots, patterns;
+    std::string importance, importance_mode, mask, endpoints, background, place, blend, show;
     std::string size, format, recipe_file;
     double scale = 0;
     int detail = 0, threads = 0, quality = 92, compression = 1;

@@ -14,6 +14,7 @@
 #include "formats/format.h"
 #include "pipeline/batch_report.h"
 #include "pipeline/content_hash.h"
+#include "pipeline/deliver.h"
 #include "pipeline/folder_listing.h"
 #include "pipeline/ledger.h"
 #include "pipeline/run_recipe.h"
@@ -89,6 +90,8 @@ std::string key_of(const RunRequest& each, const std::string& style, const std::
                                each.compression, each.keep_recipe));
 }
 
+constexpr int kThumbnail_px = 480;
+
 class Batch {
   public:
     Batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer, const Work& work)
@@ -111,7 +114,8 @@ class Batch {
 
   private:
     void list(const std::string& extension) {
-        const std::vector<fs::path> pictures = pictures_in(request_.input, request_.patterns, request_.output);
+        const std::vector<fs::path> pictures = pictures_in(
+            request_.input, request_.patterns, request_.leave_out.empty() ? request_.output : request_.leave_out);
         if (pictures.empty())
             throw Error(ErrorCode::cannot_read, request_.input.string(), "has no pictures",
                         "give another folder, or patterns of names with --include");
@@ -203,9 +207,21 @@ class Batch {
         }
         if (request_.each.dry_run) return State::done;
         make_folder(target.parent_path());
-        entry.bytes = run_one(run_request, threads, codec).outputs.front().bytes;
+        run_request.thumbnail_px = kThumbnail_px;
+        const RunReport made_now = run_one(run_request, threads, codec);
+        entry.bytes = made_now.outputs.front().bytes;
+        write_thumbnail(thumbnail_before(picture), made_now.small_input, codec);
+        write_thumbnail(thumbnail_after(picture), made_now.small_drawing, codec);
         ledger_->add(picture.result, entry);
         return State::done;
+    }
+
+    void write_thumbnail(const fs::path& relative, const Picture& small, PictureCodec& codec) const {
+        const fs::path path = request_.output / relative;
+        make_folder(path.parent_path());
+        DeliveryOptions options;
+        options.quality = 85;
+        write_file_atomically(path, picture_file(small, format_named("jpg"), options, codec, path.string()));
     }
 
     RunReport run_one(const RunRequest& run_request, int threads, PictureCodec& codec) {

@@ -18,6 +18,7 @@ struct BatchRequest {
     /// path from the folder, so that adding a picture changes no other.
     RunRequest each;
     std::filesystem::path input, output;  ///< folders; `output` is made if need be
+    std::filesystem::path leave_out;      ///< a folder of results in `input`; empty: `output`
     std::vector<std::string> patterns;    ///< as pictures_in takes them
     CodecOptions codec;
 };

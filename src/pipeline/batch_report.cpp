@@ -12,6 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using State = BatchPicture::State;
+using nlohmann::ordered_json;
 
 std::string_view state_name(State state) {
     return state == State::done ? "done" : state == State::up_to_date ? "up to date" : "failed";
@@ -56,21 +57,23 @@ figcaption { margin-top: .5rem; overflow-wrap: anywhere; }
 </style>
 )";
 
-std::string figure(const BatchPicture& picture, const fs::path& to_input) {
-    const bool failed = picture.state == State::failed;
-    const std::string before = url(to_input / picture.input), after = url(picture.result);
-    std::string out = fmt::format("<figure{}><div><a href=\"{}\"><img loading=\"lazy\" alt=\"before\" src=\"{}\"></a>",
-                                  failed ? " class=\"failed\"" : "", before, before);
-    if (!failed) out += fmt::format("<a href=\"{}\"><img loading=\"lazy\" alt=\"after\" src=\"{}\"></a>", after, after);
-    out += fmt::format("</div><figcaption>{}", escaped(picture.input));
-    if (failed) out += fmt::format("<br><b>{}</b>: {}", escaped(picture.problem), escaped(picture.remedy));
-    return out + "</figcaption></figure>\n";
+std::string image(const std::string& to, const std::string& of, std::string_view what) {
+    return fmt::format("<a href=\"{}\"><img loading=\"lazy\" alt=\"{}\" src=\"{}\"></a>", to, what, of);
 }
 
-}  // namespace
+std::string figure(const BatchPicture& picture, const fs::path& to_input) {
+    const std::string original = url(to_input / picture.input);
+    if (picture.state == State::failed)
+        return fmt::format(
+            "<figure class=\"failed\"><figcaption><a href=\"{}\">{}</a><br><b>{}</b>: {}</figcaption>"
+            "</figure>\n",
+            original, escaped(picture.input), escaped(picture.problem), escaped(picture.remedy));
+    return "<figure><div>" + image(original, url(thumbnail_before(picture)), "before") +
+           image(url(picture.result), url(thumbnail_after(picture)), "after") +
+           fmt::format("</div><figcaption>{}</figcaption></figure>\n", escaped(picture.input));
+}
 
-std::string batch_report_json(const BatchReport& report) {
-    using nlohmann::ordered_json;
+ordered_json json_of(const BatchReport& report) {
     ordered_json tree;
     tree["program"] = fmt::format("dstylize {}", version());
     tree["style"] = report.style;
@@ -85,7 +88,30 @@ std::string batch_report_json(const BatchReport& report) {
         }
         tree["pictures"].push_back(row);
     }
+    return tree;
+}
+
+/// File names need not be UTF-8.
+std::string json_text(const ordered_json& tree) {
     return tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+fs::path thumbnail_before(const BatchPicture& picture) {
+    return fs::path(".dstylize/thumbnails") / (picture.result + ".before.jpg");
+}
+fs::path thumbnail_after(const BatchPicture& picture) {
+    return fs::path(".dstylize/thumbnails") / (picture.result + ".after.jpg");
+}
+
+std::string batch_report_json(const BatchReport& report) { return json_text(json_of(report)); }
+
+std::string batch_report_json(std::span<const BatchReport> reports) {
+    if (reports.size() == 1) return batch_report_json(reports[0]);
+    ordered_json list = ordered_json::array();
+    for (const BatchReport& report : reports) list.push_back(json_of(report));
+    return json_text(list);
 }
 
 std::string contact_sheet_html(const BatchReport& report, const fs::path& input, const fs::path& output) {

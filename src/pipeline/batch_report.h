@@ -1,13 +1,20 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "pipeline/batch.h"
 
 namespace dstylize {
 
+/// Where the small copies of a picture and of its drawing lie, from the output folder.
+std::filesystem::path thumbnail_before(const BatchPicture& picture);
+std::filesystem::path thumbnail_after(const BatchPicture& picture);
+
 /// The report of a batch for programs.
 std::string batch_report_json(const BatchReport& report);
+/// Of one batch the same; of several a list.
+std::string batch_report_json(std::span<const BatchReport> reports);
 /// The same for people: a page that shows every picture beside its result, what failed first. It names files by their
 /// paths from `output`, where it is to lie.
 std::string contact_sheet_html(const BatchReport& report, const std::filesystem::path& input,

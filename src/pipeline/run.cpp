@@ -18,6 +18,7 @@
 #include "pipeline/run_recipe.h"
 #include "pipeline/scene.h"
 #include "pipeline/stylize.h"
+#include "render/raster.h"
 
 namespace dstylize {
 namespace {
@@ -265,6 +266,12 @@ class Run {
         paper.grain = 0;
     }
 
+    /// The size of a small copy.
+    Extent small(Extent e) const {
+        const int side = std::min(request_.thumbnail_px, e.long_side());
+        return lattice_extent(e, side);
+    }
+
     std::vector<std::vector<std::byte>> drawn_files() {
         Drawing drawing;
         try {
@@ -284,6 +291,10 @@ class Run {
             lay_ground(drawing.list.paper);
         drawing.list.mixing = style_.scene.blend;
         const DeliveryOptions options = delivery_options();
+        if (request_.thumbnail_px > 0) {
+            report_.small_input = resized(input_.picture, small(input_.picture.extent()));
+            report_.small_drawing = raster(drawing.list, {small(frame_.size_px)}, work_);
+        }
         input_.picture = {};
         Delivery delivery(std::move(drawing), options, codec_);
         return each_output(
@@ -296,6 +307,10 @@ class Run {
             picture = shown({request_.show}, input_.picture, style_, controls_, part(work_, 0.08, 0.85)).front();
         } catch (const Error& error) {
             rethrow_named(error);
+        }
+        if (request_.thumbnail_px > 0) {
+            report_.small_input = resized(input_.picture, small(input_.picture.extent()));
+            report_.small_drawing = resized(picture, small(picture.extent()));
         }
         DeliveryOptions options = delivery_options();
         options.frame = {picture.extent(), 0, 0, 0};

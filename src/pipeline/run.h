@@ -48,6 +48,8 @@ struct RunRequest {
     std::string show;  ///< an intermediate to write in the drawing's place; empty: the drawing
     int quality = 92, compression = 1;
 
+    int thumbnail_px = 0;  ///< long side of the small copies in the report; 0: none
+
     bool keep_recipe = true;            ///< outputs carry their recipe
     std::filesystem::path recipe_file;  ///< empty: none
     bool force = false;                 ///< replace files that we did not make
@@ -71,6 +73,7 @@ struct RunReport {
     std::size_t unreached = 0, nodes = 0, strokes = 0;
     std::vector<OutputReport> outputs;
     std::string recipe;
+    Picture small_input, small_drawing;  ///< as request.thumbnail_px asks for them
     bool dry_run = false;
 };
 

@@ -48,8 +48,13 @@ TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
     EXPECT_EQ(states(), (std::map<std::string, std::string>{
                             {"a.png", "done"}, {"sea/b.png", "done"}, {"sea/deep/c d&.png", "done"}}));
     const std::string page = text(folder_ / "out/index.html");
-    EXPECT_NE(page.find("src=\"../photos/sea/deep/c%20d%26.png\""), std::string::npos);
-    EXPECT_NE(page.find("src=\"sea/deep/c%20d%26.png\""), std::string::npos);
+    EXPECT_NE(page.find("href=\"../photos/sea/deep/c%20d%26.png\""), std::string::npos);
+    EXPECT_NE(page.find("href=\"sea/deep/c%20d%26.png\""), std::string::npos);
+    for (const char* when : {"before", "after"}) {
+        const std::string small = std::string(".dstylize/thumbnails/a.png.") + when + ".jpg";
+        EXPECT_NE(page.find("src=\"" + small + "\""), std::string::npos);
+        EXPECT_EQ(read_picture(folder_ / "out" / small).picture.extent(), kSize);
+    }
     EXPECT_NE(page.find("c d&amp;.png"), std::string::npos);
 }
 
@@ -84,7 +89,7 @@ TEST_F(FolderTest, GoesOnPastBadPicturesAndNamesThem) {
     EXPECT_EQ(states()["sea/deep/c d&.png"], "done");
     EXPECT_FALSE(fs::exists(folder_ / "out/sea/bad.png"));
     const std::string page = text(folder_ / "out/index.html");
-    EXPECT_LT(page.find("sea/bad.jpg"), page.find("src=\"a.png\"")) << "what failed comes first";
+    EXPECT_LT(page.find("sea/bad.jpg"), page.find("href=\"a.png\"")) << "what failed comes first";
 }
 
 TEST_F(FolderTest, GivesTheSameBytesOnAnyThreadsAndWhateverElseIsThere) {
@@ -106,6 +111,21 @@ TEST_F(FolderTest, TakesPatternsAndFormats) {
     EXPECT_EQ(states(), (std::map<std::string, std::string>{
                             {"a.png", "done"}, {"sea/a.tif", "done"}, {"sea/deep/c d&.png", "done"}}));
     EXPECT_TRUE(fs::exists(folder_ / "out/sea/a.json"));
+}
+
+TEST_F(FolderTest, GivesEachOfSeveralStylesAFolder) {
+    std::ofstream(folder_ / "mine.toml") << "[style]\nname = \"mine\"\nextends = \"ink\"\n[width]\nwidest = 9.0\n";
+    for (const char* state : {"done", "up to date"}) {
+        const Outcome outcome = draw({"photos", "photos/out", "--style", "./mine.toml", "--json"});
+        expect_done({outcome.exit_code, "", outcome.err});
+        const json reports = json::parse(outcome.out);
+        ASSERT_EQ(reports.size(), 2u);
+        EXPECT_EQ(reports[0]["style"], "mine");
+        EXPECT_EQ(reports[1][state], 3);
+    }
+    EXPECT_FALSE(file_bytes(folder_ / "photos/out/mine/a.png") == file_bytes(folder_ / "photos/out/ink/a.png"));
+    expect_error(draw({"photos", "two", "--style", "ink"}), 2, {"--style ink", "twice"});
+    expect_error(draw({"in.png", "two.png", "--style", "vine"}), 2, {"--style ink", "folders"});
 }
 
 TEST_F(FolderTest, KeepsTheExtensionsOfPicturesWhoseResultsWouldBeOne) {
