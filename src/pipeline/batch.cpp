@@ -65,7 +65,7 @@ void check_folders(const BatchRequest& request) {
 
 /// Paths of the results, in the order of the pictures.
 std::vector<fs::path> results_of(const std::vector<fs::path>& pictures, const std::string& extension) {
-    std::map<fs::path, int> times;
+    std::map<fs::path, int> times{{"report.json", 1}};  // taken by the batch's own
     const auto plain = [&](const fs::path& picture) {
         return picture.parent_path() / (picture.stem().string() + "." + extension);
     };

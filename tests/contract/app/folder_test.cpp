@@ -1,6 +1,11 @@
 // A folder of pictures as one run.
+#include <signal.h>
+
+#include <chrono>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "contract/app/app_fixture.h"
 
@@ -142,6 +147,43 @@ TEST_F(FolderTest, LeavesItsOwnResultsAndWhatIsHiddenOutOfTheInput) {
     fs::create_directory_symlink("..", folder_ / "photos/sea/loop");
     for (int times = 0; times < 2; ++times) expect_done(draw({"photos", "photos/drawn"}));
     EXPECT_EQ(states("photos/drawn").size(), 3u);
+}
+
+/// Names and contents of all results.
+std::map<std::string, std::string> results(const fs::path& out) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(out))
+        if (entry.is_regular_file() && entry.path().extension() == ".png")
+            files[fs::relative(entry.path(), out)] = file_bytes(entry.path());
+    return files;
+}
+
+TEST_F(FolderTest, KilledAtAnyMomentEndsAsIfItHadNotBeen) {
+    for (int k = 0; k < 6; ++k) write_picture(folder_ / "photos" / (std::to_string(k) + ".png"), scene({70 + k, 60}));
+    expect_done(draw({"photos", "whole"}));
+    const auto whole = results(folder_ / "whole");
+    ASSERT_EQ(whole.size(), 9u);
+    std::size_t interrupted = 0;
+    for (int wait_ms = 150; wait_ms <= 900; wait_ms += 150) {
+        Process process({DSTYLIZE_PROGRAM, "photos", "out", "--style", "ink", "--detail", "64"}, folder_.path());
+        std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+        process.send(SIGKILL);
+        process.wait();
+        for (const auto& [name, content] : results(folder_ / "out"))
+            EXPECT_TRUE(whole.at(name) == content) << name << " after " << wait_ms << " ms";
+        interrupted += results(folder_ / "out").size() < whole.size();
+        if (wait_ms == 450) fs::remove_all(folder_ / "out");
+    }
+    expect_done(draw_all());
+    EXPECT_TRUE(results(folder_ / "out") == whole);
+    EXPECT_GT(interrupted, 0u) << "no kill came in the middle";
+}
+
+TEST_F(FolderTest, KeepsPicturesApartFromItsOwnReport) {
+    write_picture(folder_ / "photos/report.png", scene({30, 30}));
+    expect_done(draw_all({"--format", "json"}));
+    EXPECT_EQ(json::parse(std::ifstream(folder_ / "out/report.png.json"))["format"], "dstylize skeleton");
+    EXPECT_EQ(states()["report.png"], "done");
 }
 
 TEST_F(FolderTest, SaysInADryRunWhatItWouldDoAndDoesNothing) {
