@@ -207,6 +207,7 @@ class Batch {
         }
         if (request_.each.dry_run) return State::done;
         make_folder(target.parent_path());
+        check_inside(target);
         run_request.thumbnail_px = kThumbnail_px;
         const RunReport made_now = run_one(run_request, threads, codec);
         entry.bytes = made_now.outputs.front().bytes;
@@ -214,6 +215,15 @@ class Batch {
         write_thumbnail(thumbnail_after(picture), made_now.small_drawing, codec);
         ledger_->add(picture.result, entry);
         return State::done;
+    }
+
+    /// No link leads a result out of the output folder.
+    void check_inside(const fs::path& target) const {
+        const fs::path root = fs::canonical(request_.output), folder = fs::canonical(target.parent_path());
+        const bool inside = std::mismatch(root.begin(), root.end(), folder.begin(), folder.end()).first == root.end();
+        if (!inside || fs::is_symlink(target))
+            throw Error(ErrorCode::cannot_write, target.string(), "a link leads out of the folder of the drawings",
+                        "remove the link");
     }
 
     void write_thumbnail(const fs::path& relative, const Picture& small, PictureCodec& codec) const {

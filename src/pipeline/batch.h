@@ -44,7 +44,8 @@ struct BatchProgress {
 };
 
 /// Draws all pictures that are not up to date: whose result is there as it was made, from the same content, in the
-/// same way, by the same version. Goes on past pictures that fail. As many are drawn at a time as there are threads
+/// same way, by the same version. Goes on past pictures that fail, among them those whose result
+/// would lie behind a link. As many are drawn at a time as there are threads
 /// and gibibytes of `each.max_memory_bytes`; each may need its share of them, and those that need more are drawn alone
 /// afterwards. The bytes of a result depend on none of this. Then writes report.json and index.html, a contact sheet,
 /// into the output folder. In a dry run nothing is written, and pictures that would be drawn are `done`.

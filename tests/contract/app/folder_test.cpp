@@ -203,6 +203,20 @@ TEST_F(FolderTest, ReplacesNothingThatItDidNotMake) {
     EXPECT_FALSE(file_bytes(folder_ / "out/a.png") == before);
 }
 
+TEST_F(FolderTest, FollowsNoLinkOutOfTheFolderOfTheDrawings) {
+    fs::create_directories(folder_ / "out");
+    fs::create_directories(folder_ / "elsewhere");
+    fs::create_directory_symlink("../elsewhere", folder_ / "out/sea");
+    fs::create_symlink("../in.png", folder_ / "out/a.png");
+    const auto before = file_bytes(folder_ / "in.png");
+    const Outcome outcome = draw_all({"--force"});
+    EXPECT_EQ(outcome.exit_code, 5);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
+    EXPECT_TRUE(file_bytes(folder_ / "in.png") == before);
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / "elsewhere"))
+        EXPECT_FALSE(entry.is_regular_file()) << entry.path();
+}
+
 TEST_F(FolderTest, RefusesFoldersThatCannotBeThese) {
     expect_error(draw({"photos", "in.png"}), 2, {"in.png", "is a file"});
     expect_error(draw({"photos", "all.png"}), 2, {"all.png", "names a file"});
