@@ -86,8 +86,8 @@ std::string key_of(const RunRequest& each, const std::string& style, const std::
     mark(each.mask.path, recipe.mask);
     mark(each.endpoints.path, recipe.endpoints);
     mark(each.background.file, recipe.background_file);
-    return hash_of(fmt::format("{}\n{} {} {} {} {}", recipe_toml(recipe), extension, each.show, each.quality,
-                               each.compression, each.keep_recipe));
+    return hash_of(fmt::format("{}\n{} {} {} {} {} {}", recipe_toml(recipe), each.detail, extension, each.show,
+                               each.quality, each.compression, each.keep_recipe));
 }
 
 constexpr int kThumbnail_px = 480;
@@ -206,8 +206,8 @@ class Batch {
             run_request.force = true;  // our own, stale or damaged
         }
         if (request_.each.dry_run) return State::done;
-        make_folder(target.parent_path());
         check_inside(target);
+        make_folder(target.parent_path());
         run_request.thumbnail_px = kThumbnail_px;
         const RunReport made_now = run_one(run_request, threads, codec);
         entry.bytes = made_now.outputs.front().bytes;
@@ -219,9 +219,11 @@ class Batch {
 
     /// No link leads a result out of the output folder.
     void check_inside(const fs::path& target) const {
-        const fs::path root = fs::canonical(request_.output), folder = fs::canonical(target.parent_path());
+        std::error_code error, ignored;
+        const fs::path root = fs::canonical(request_.output, error),
+                       folder = fs::weakly_canonical(target.parent_path(), error);
         const bool inside = std::mismatch(root.begin(), root.end(), folder.begin(), folder.end()).first == root.end();
-        if (!inside || fs::is_symlink(target))
+        if (error || !inside || fs::is_symlink(target, ignored))
             throw Error(ErrorCode::cannot_write, target.string(), "a link leads out of the folder of the drawings",
                         "remove the link");
     }
