@@ -52,11 +52,6 @@ class WindowRows {
     alignas(64) T copy_[kWindow];
 };
 
-HWY_INLINE Vec<std::uint16_t> lanes_from(Tag<std::uint16_t> d, const std::uint16_t* p) { return hn::LoadU(d, p); }
-HWY_INLINE Vec<std::uint32_t> lanes_from(Tag<std::uint32_t> d, const std::uint16_t* p) {
-    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint16_t, decltype(d)>(), p));
-}
-
 /// Labels above `base`: 0 for those below it, far for those out of reach.
 template <class Lane>
 void load_row_above(const std::uint32_t* label, std::uint32_t base, Lane* row) {

@@ -33,6 +33,12 @@ inline constexpr Lane kFar = sizeof(Lane) == 2 ? Lane(65535) : Lane(1u << 30);
 HWY_INLINE Vec<std::uint16_t> sum_of(Vec<std::uint16_t> a, Vec<std::uint16_t> b) { return hn::SaturatedAdd(a, b); }
 HWY_INLINE Vec<std::uint32_t> sum_of(Vec<std::uint32_t> a, Vec<std::uint32_t> b) { return hn::Add(a, b); }
 
+/// As many 16-bit values from p on, in lanes of either width.
+HWY_INLINE Vec<std::uint16_t> lanes_from(Tag<std::uint16_t> d, const std::uint16_t* p) { return hn::LoadU(d, p); }
+HWY_INLINE Vec<std::uint32_t> lanes_from(Tag<std::uint32_t> d, const std::uint16_t* p) {
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint16_t, decltype(d)>(), p));
+}
+
 /// A vector of a row with those beside it.
 template <class Lane>
 struct Stretch {

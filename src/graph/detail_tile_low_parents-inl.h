@@ -17,14 +17,12 @@ namespace dstylize::HWY_NAMESPACE {
 // below 2^15, the low 16 bits of the labels say whether S(u) + c = S(v), and the smallest S(u) belongs to the
 // largest c. Unreached nodes have edges to each other alone, and no edge costs 0.
 
-using Tag16 = hn::CappedTag<std::uint16_t, 16>;
-using Vec16 = hn::Vec<Tag16>;
 inline constexpr std::uint32_t kLargestLowCost = 32767;
 
-/// The low halves of the labels of five rows in turn.
+/// The low halves of the labels of a row and those within reach.
 class LowRows {
   public:
-    explicit LowRows(int width) : width_(std::size_t(width)), low_(5 * width_) {}
+    explicit LowRows(int width) : width_(std::size_t(width)), low_(kRows * width_) {}
     void load(const std::uint32_t* label, int row) {
         std::uint16_t* const low = low_.data() + at(row);
         for (std::size_t i = 0; i < width_; ++i) low[i] = std::uint16_t(label[std::size_t(row) * width_ + i]);
@@ -32,33 +30,16 @@ class LowRows {
     const std::uint16_t* operator[](int row) const { return low_.data() + at(row); }
 
   private:
-    std::size_t at(int row) const { return std::size_t(row % 5) * width_; }
+    static constexpr std::size_t kRows = 2 * kReach + 1;
+    std::size_t at(int row) const { return std::size_t(row) % kRows * width_; }
     std::size_t width_;
     std::vector<std::uint16_t> low_;
 };
 
-/// As heights_to, or from a plane.
-template <bool kPlanes>
-HWY_INLINE Vec16 low_heights_to(const std::uint16_t* weight, std::ptrdiff_t v, Vec16 own, const Arrival& by) {
-    const Tag16 d;
-    if constexpr (kPlanes) return hn::LoadU(d, by.height + (v + by.height_from));
-    const auto other = hn::LoadU(d, weight + (v + by.from));
-    auto least = hn::Min(own, other), height = hn::Add(own, other);
-    if (by.touches_four) {
-        for (const std::ptrdiff_t o : by.beside) {
-            const auto beside = hn::LoadU(d, weight + (v + o));
-            least = hn::Min(least, beside);
-            height = hn::Add(height, beside);
-        }
-        height = hn::ShiftRight<1>(height);
-    }
-    return hn::IfThenZeroElse(hn::Eq(least, hn::Zero(d)), height);
-}
-
 template <bool kPlanes>
 void low_parents_of_row(const ParentRow& r, const LowRows& low, const StepOrder& order, std::uint8_t* out) {
-    const Tag16 d;
-    const hn::Rebind<std::uint8_t, Tag16> bytes;
+    const Tag<std::uint16_t> d;
+    const hn::Rebind<std::uint8_t, decltype(d)> bytes;
     const Lattice& lattice = r.graph.lattice;
     const std::vector<Arrival> arrivals = arrivals_of_row(r.graph, order, r.row);
     std::vector<const std::uint16_t*> from;  // labels, in the place of the nodes that are arrived at
@@ -67,20 +48,20 @@ void low_parents_of_row(const ParentRow& r, const LowRows& low, const StepOrder&
         from.push_back(low[r.row - step.dy] - step.dx);
     }
     const std::uint16_t *const weight = r.graph.weight.data(), *const here = low[r.row];
-    cover_row(r, order, int(hn::MaxLanes(d)), out, [&](int column) {
+    cover_row(r, order, kLanes<std::uint16_t>, out, [&](int column) {
         const std::ptrdiff_t v = index(lattice.at(column, r.row));
         const auto own = hn::LoadU(d, weight + v), label = hn::LoadU(d, here + column);
         auto best_cost = hn::Zero(d), best = hn::Set(d, std::uint16_t{ParentColumn::kNoStep});
         for (std::size_t k = 0; k < arrivals.size(); ++k) {
             const Arrival& by = arrivals[k];
             const auto cost =
-                hn::Mul(low_heights_to<kPlanes>(weight, v, own, by), hn::Set(d, std::uint16_t(by.length5)));
+                hn::Mul(heights_to<kPlanes, std::uint16_t>(weight, v, own, by), hn::Set(d, std::uint16_t(by.length5)));
             const auto risen = hn::Sub(label, hn::LoadU(d, from[k] + column));
             const auto better = hn::And(hn::Eq(risen, cost), hn::Lt(best_cost, cost));
             best_cost = hn::IfThenElse(better, cost, best_cost);
             best = hn::IfThenElse(better, hn::Set(d, std::uint16_t{by.step}), best);
         }
-        hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<Tag16>(), best)), bytes, out + column);
+        hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<decltype(d)>(), best)), bytes, out + column);
     });
 }
 

@@ -7,19 +7,17 @@
 #define DSTYLIZE_GRAPH_DETAIL_TILE_PARENTS_INL_H_
 #endif
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
+#include "graph/detail_tile_lanes-inl.h"
 #include "graph/detail_tiles.h"
 #include "graph/plan.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 /// A row of nodes and the labels that their parents are to explain.
 struct ParentRow {
@@ -68,13 +66,8 @@ inline std::uint8_t parent_of(const ParentRow& r, const StepOrder& order, int co
     return best;
 }
 
-using Tag32 = hn::CappedTag<std::uint32_t, 8>;
-using Vec32 = hn::Vec<Tag32>;
-
-HWY_INLINE Vec32 wide_at(const std::uint16_t* p) {
-    const Tag32 d;
-    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<std::uint16_t, Tag32>(), p));
-}
+/// How far a step can lead.
+inline constexpr int kReach = 2;
 
 /// How a step arrives at the nodes of a row; nodes are counted from the one it arrives at.
 struct Arrival {
@@ -103,13 +96,15 @@ struct Arrival {
 };
 
 /// Heights of the edges that arrive so at the nodes from v on, of the weights own; 0 where there is none.
-HWY_INLINE Vec32 heights_to(const std::uint16_t* weight, std::ptrdiff_t v, Vec32 own, const Arrival& by) {
-    const Tag32 d;
-    const auto other = wide_at(weight + (v + by.from));
+template <bool kPlanes, class Lane>
+HWY_INLINE Vec<Lane> heights_to(const std::uint16_t* weight, std::ptrdiff_t v, Vec<Lane> own, const Arrival& by) {
+    const Tag<Lane> d;
+    if constexpr (kPlanes) return lanes_from(d, by.height + (v + by.height_from));
+    const auto other = lanes_from(d, weight + (v + by.from));
     auto least = hn::Min(own, other), height = hn::Add(own, other);
     if (by.touches_four) {
         for (const std::ptrdiff_t o : by.beside) {
-            const auto beside = wide_at(weight + (v + o));
+            const auto beside = lanes_from(d, weight + (v + o));
             least = hn::Min(least, beside);
             height = hn::Add(height, beside);
         }
@@ -122,19 +117,15 @@ HWY_INLINE Vec32 heights_to(const std::uint16_t* weight, std::ptrdiff_t v, Vec32
 template <bool kBottleneck, bool kPlanes>
 HWY_INLINE void parents_of_stretch(const ParentRow& r, std::span<const Arrival> arrivals, std::ptrdiff_t v,
                                    std::uint8_t* out) {
-    const Tag32 d;
+    const Tag<std::uint32_t> d;
     const std::uint16_t* const weight = r.graph.weight.data();
     const auto sum_v = hn::LoadU(d, r.sum + v);
     auto own = hn::Zero(d), m_v = hn::Zero(d), best_m = hn::Set(d, ~0u);
     auto best_s = sum_v, best = hn::Set(d, ParentColumn::kNoStep);
-    if constexpr (!kPlanes) own = wide_at(weight + v);
+    if constexpr (!kPlanes) own = lanes_from(d, weight + v);
     if constexpr (kBottleneck) m_v = hn::LoadU(d, r.bottleneck + v);
     for (const Arrival& by : arrivals) {
-        auto height = own;
-        if constexpr (kPlanes)
-            height = wide_at(by.height + (v + by.height_from));
-        else
-            height = heights_to(weight, v, own, by);
+        const auto height = heights_to<kPlanes, std::uint32_t>(weight, v, own, by);
         const auto sum_u = hn::LoadU(d, r.sum + (v + by.from));
         const auto reached = hn::Add(sum_u, hn::Mul(height, hn::Set(d, by.length5)));
         // Costs are not 0, so a parent's sum is smaller; then nothing wrapped, and the edge exists.
@@ -150,8 +141,8 @@ HWY_INLINE void parents_of_stretch(const ParentRow& r, std::span<const Arrival> 
         best_s = hn::IfThenElse(better, sum_u, best_s);
         best = hn::IfThenElse(better, hn::Set(d, std::uint32_t(by.step)), best);
     }
-    const hn::Rebind<std::uint8_t, Tag32> bytes;
-    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<Tag32>(), best)), bytes, out);
+    const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(hn::RebindToSigned<decltype(d)>(), best)), bytes, out);
 }
 
 /// The arrivals of a row that begin inside the lattice, by the index of the node that they come from.
@@ -169,7 +160,6 @@ inline std::vector<Arrival> arrivals_of_row(const WeightedLattice& g, const Step
 template <class Stretched>
 HWY_INLINE void cover_row(const ParentRow& r, const StepOrder& order, int at_once, std::uint8_t* out,
                           Stretched stretch) {
-    constexpr int kReach = 2;
     const int width = r.graph.lattice.extent().x, end = width - kReach;
     int column = std::min(kReach, width);
     for (int c = 0; c < column; ++c) out[c] = parent_of(r, order, c);
@@ -184,7 +174,7 @@ HWY_INLINE void cover_row(const ParentRow& r, const StepOrder& order, int at_onc
 template <bool kBottleneck, bool kPlanes>
 void parents_of_row(const ParentRow& r, const StepOrder& order, std::uint8_t* out) {
     const std::vector<Arrival> arrivals = arrivals_of_row(r.graph, order, r.row);
-    cover_row(r, order, int(hn::MaxLanes(Tag32())), out, [&](int column) {
+    cover_row(r, order, kLanes<std::uint32_t>, out, [&](int column) {
         parents_of_stretch<kBottleneck, kPlanes>(r, arrivals, index(r.graph.lattice.at(column, r.row)), out + column);
     });
 }

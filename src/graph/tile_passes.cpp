@@ -134,7 +134,6 @@ void find_parents(const ParentRequest& request, int first_row, int end_row, std:
     const bool planes = !graph.height_plane.empty(), symmetric = !planes || graph.symmetric;
     const std::uint32_t* const bottleneck = request.bottleneck.empty() ? nullptr : request.bottleneck.data();
     const bool by_low_bits = bottleneck == nullptr && symmetric && request.largest_step <= kLargestLowCost;
-    constexpr int kReach = 2;
     LowRows low(by_low_bits ? e.x : 0);
     int loaded = std::max(0, first_row - kReach);
     for (int j = first_row; j < end_row; ++j) {
