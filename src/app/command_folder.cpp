@@ -56,14 +56,14 @@ BatchReport run_and_tell(const BatchRequest& batch, const Arguments& arguments, 
         },
         work);
     progress.finish();
-    if (!arguments.json && !arguments.quiet) print(summary(batch, report, progress.seconds()));
+    if (!arguments.json && (!arguments.quiet || batch.each.dry_run)) print(summary(batch, report, progress.seconds()));
     return report;
 }
 
 /// A batch for each style; the results of several lie in a folder each.
 std::vector<BatchRequest> batches(const Arguments& arguments) {
     BatchRequest batch = batch_request(arguments);
-    if (arguments.styles.size() < 2) return {batch};
+    if (arguments.styles.size() < 2 || batch.output.empty()) return {batch};
     std::vector<BatchRequest> out;
     batch.leave_out = batch.output;
     for (const std::string& style : arguments.styles) {

@@ -28,7 +28,7 @@ using State = BatchPicture::State;
 
 std::string hash_of(std::string_view text) { return content_hash(std::as_bytes(std::span(text))); }
 
-/// 64 of the hash's bits, so that a picture's chance depends on its path and the run's seed alone.
+/// 60 of the hash's bits, which --seed can take, too: a picture's chance depends on its path and the run's seed alone.
 std::uint64_t own_seed(std::uint64_t seed, const fs::path& relative) {
     return std::stoull(hash_of(fmt::format("{} {}", seed, relative.generic_string())).substr(0, 15), nullptr, 16);
 }
@@ -43,20 +43,26 @@ bool is_file_name(const fs::path& path) {
     }
 }
 
+/// The folder in which all results lie, those of other styles as well.
+const fs::path& root_of(const BatchRequest& request) {
+    return request.leave_out.empty() ? request.output : request.leave_out;
+}
+
 void check_folders(const BatchRequest& request) {
-    const std::string name = request.output.string();
+    const fs::path& output = root_of(request);
+    const std::string name = output.string();
     std::error_code ignored;
     if (!fs::is_directory(request.input, ignored))
         throw Error(ErrorCode::cannot_read, request.input.string(), "is no folder", "give a folder of pictures");
     if (name.empty() || name == "-")
         throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and its drawings need one", "give OUT");
-    if (fs::exists(request.output, ignored) && !fs::is_directory(request.output, ignored))
+    if (fs::exists(output, ignored) && !fs::is_directory(output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is a file, and the input is a folder",
                     "give a folder for the drawings");
-    if (!fs::exists(request.output, ignored) && is_file_name(request.output))
+    if (!fs::exists(output, ignored) && is_file_name(output))
         throw Error(ErrorCode::bad_usage, name, "names a file, and the input is a folder",
                     "give a folder for the drawings");
-    if (fs::equivalent(request.input, request.output, ignored))
+    if (fs::equivalent(request.input, output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is also the input", "give another folder for the drawings");
     if (!request.each.outputs.empty() || !request.each.recipe_file.empty())
         throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and -o and --recipe name single files",
@@ -114,8 +120,7 @@ class Batch {
 
   private:
     void list(const std::string& extension) {
-        const std::vector<fs::path> pictures = pictures_in(
-            request_.input, request_.patterns, request_.leave_out.empty() ? request_.output : request_.leave_out);
+        const std::vector<fs::path> pictures = pictures_in(request_.input, request_.patterns, root_of(request_));
         if (pictures.empty())
             throw Error(ErrorCode::cannot_read, request_.input.string(), "has no pictures",
                         "give another folder, or patterns of names with --include");

@@ -138,6 +138,9 @@ TEST_F(FolderTest, GivesEachOfSeveralStylesAFolder) {
         EXPECT_EQ(reports[1][state], 3);
     }
     EXPECT_FALSE(file_bytes(folder_ / "photos/out/mine/a.png") == file_bytes(folder_ / "photos/out/ink/a.png"));
+    expect_error(draw({"photos", "photos", "--style", "vine"}), 2, {"photos", "also the input"});
+    expect_error(draw({"photos", "--style", "vine"}), 2, {"photos", "give OUT"});
+    expect_error(draw({"photos", "in.png", "--style", "vine"}), 2, {"in.png", "is a file"});
     expect_error(draw({"photos", "two", "--style", "ink"}), 2, {"--style ink", "twice"});
     expect_error(draw({"in.png", "two.png", "--style", "vine"}), 2, {"--style ink", "folders"});
 }
