@@ -52,6 +52,7 @@ class Run {
     RunReport report() {
         check_place();
         load_style();
+        recipe_ = recipe_of(request_, style_toml(style_));  // but for the files' marks
         plan_outputs();
         work_.report("reading", 0);
         read_inputs();
@@ -202,16 +203,8 @@ class Run {
                            [](const PlannedOutput& o) { return o.format->holds == Holds::picture; });
     }
 
-    /// Fills in the recipe, and what is known of the report before anything is drawn.
+    /// Fills in what is known of the report before anything is drawn.
     void describe() {
-        Recipe recipe = recipe_of(request_, style_toml(style_));
-        recipe.input = std::move(recipe_.input);
-        recipe.importance = std::move(recipe_.importance);
-        recipe.mask = std::move(recipe_.mask);
-        recipe.endpoints = std::move(recipe_.endpoints);
-        recipe.background_file = std::move(recipe_.background_file);
-        recipe_ = std::move(recipe);
-
         report_.input = name_of(request_.input);
         report_.input_xxh128 = recipe_.input.xxh128;
         report_.style = style_.name;
@@ -267,10 +260,7 @@ class Run {
     }
 
     /// The size of a small copy.
-    Extent small(Extent e) const {
-        const int side = std::min(request_.thumbnail_px, e.long_side());
-        return lattice_extent(e, side);
-    }
+    Extent small(Extent e) const { return lattice_extent(e, std::min(request_.thumbnail_px, e.long_side())); }
 
     std::vector<std::vector<std::byte>> drawn_files() {
         Drawing drawing;
