@@ -124,7 +124,7 @@ Rgba8 exposed(Rgba8 below, const Channels& light, float below_gain, const std::a
 
 Grid<float> emission_plane(const DisplayList& list, std::span<const Layer> glowing, Extent size_px, const Work& work) {
     Grid<float> out(size_px);
-    const Prepared drawing = prepared(list, glowing, size_px, work);
+    const Prepared drawing = prepared(list, glowing, {size_px}, work);
     tbb::enumerable_thread_specific<EmissionTile> tiles;
     tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
         work.check();

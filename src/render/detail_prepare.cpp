@@ -13,7 +13,6 @@ namespace dstylize {
 namespace {
 
 constexpr int kTileSamples = 128;
-constexpr double kMostSamplesPerPixel = 8;
 /// Two as the least: where two strokes meet, `max` keeps only the larger of their shares of a sample, which a
 /// whole pixel would show. Three across the mean stroke: gaps between strokes are about as wide as they.
 constexpr double kLeastSamplesPerPixel = 2, kSamplesPerWidth = 3;
@@ -39,12 +38,13 @@ double mean_stroke_width(std::span<const Layer> layers) {
     return total > 0 ? area / total : 0;
 }
 
-int samples_per_pixel(std::span<const Layer> layers, Extent size_px, double scale) {
+int samples_per_pixel(std::span<const Layer> layers, const RasterOptions& options, double scale) {
     const double width = mean_stroke_width(layers) * scale;
     int wanted = int(kLeastSamplesPerPixel);
     if (width > 0)
-        wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), kLeastSamplesPerPixel, kMostSamplesPerPixel));
-    while (wanted > kLeastSamplesPerPixel && double(size_px.count()) * wanted * wanted > kMostSamples) --wanted;
+        wanted = int(std::clamp(std::ceil(kSamplesPerWidth / width), kLeastSamplesPerPixel,
+                                double(options.most_samples_per_pixel)));
+    while (wanted > kLeastSamplesPerPixel && double(options.size_px.count()) * wanted * wanted > kMostSamples) --wanted;
     return wanted;
 }
 
@@ -157,11 +157,13 @@ class Binner {
 
 }  // namespace
 
-Prepared prepared(const DisplayList& list, std::span<const Layer> layers, Extent size_px, const Work& work) {
+Prepared prepared(const DisplayList& list, std::span<const Layer> layers, const RasterOptions& options,
+                  const Work& work) {
+    const Extent size_px = options.size_px;
     const double scale_x = size_px.x / double(list.width_px), scale_y = size_px.y / double(list.height_px);
     const double scale_width = std::sqrt(scale_x * scale_y);
     Prepared out;
-    out.samples_per_pixel = samples_per_pixel(layers, size_px, scale_width);
+    out.samples_per_pixel = samples_per_pixel(layers, options, scale_width);
     out.tile_px = kTileSamples / out.samples_per_pixel;
     out.tiles = {(size_px.x + out.tile_px - 1) / out.tile_px, (size_px.y + out.tile_px - 1) / out.tile_px};
     const Scale scale{float(scale_x * out.samples_per_pixel), float(scale_y * out.samples_per_pixel),

@@ -7,6 +7,7 @@
 #include "core/grid.h"
 #include "core/work.h"
 #include "geometry/tapered_line.h"
+#include "render/raster.h"
 
 namespace dstylize {
 
@@ -34,7 +35,8 @@ struct Prepared {
     std::vector<std::vector<Run>> runs;  ///< per tile, in painting order
 };
 
-/// Flattens, scales and bins some layers of the list for an output of the given size. O(points + tiles touched).
-Prepared prepared(const DisplayList& list, std::span<const Layer> layers, Extent size_px, const Work& work);
+/// Flattens, scales and bins some layers of the list for the output that is asked for. O(points + tiles touched).
+Prepared prepared(const DisplayList& list, std::span<const Layer> layers, const RasterOptions& options,
+                  const Work& work);
 
 }  // namespace dstylize

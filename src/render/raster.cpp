@@ -153,10 +153,10 @@ class TilePainter {
 };
 
 /// Layers of paint on paper.
-Picture painted(const DisplayList& list, const Paper& paper, std::span<const Layer> layers, Extent size_px,
-                const Work& work) {
-    Picture out(size_px);
-    const Prepared drawing = prepared(list, layers, size_px, work);
+Picture painted(const DisplayList& list, const Paper& paper, std::span<const Layer> layers,
+                const RasterOptions& options, const Work& work) {
+    Picture out(options.size_px);
+    const Prepared drawing = prepared(list, layers, options, work);
     tbb::enumerable_thread_specific<TilePainter> painters(
         [&] { return TilePainter(paper, layers, list.mixing, drawing, out); });
     tbb::parallel_for(std::size_t(0), drawing.tiles.count(), [&](std::size_t tile) {
@@ -186,10 +186,11 @@ void lay_cover(Picture& out, const Picture& cover) {
     }
 }
 
-Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
+Picture composed(const DisplayList& list, const RasterOptions& options, const Work& work) {
+    const Extent size_px = options.size_px;
     std::span<const Layer> rest = list.layers;
     std::size_t paint = next_effect(rest);
-    Picture out = painted(list, list.paper, rest.first(paint), size_px, work);
+    Picture out = painted(list, list.paper, rest.first(paint), options, work);
     for (rest = rest.subspan(paint); !rest.empty(); rest = rest.subspan(paint)) {
         if (rest[0].glow)
             expose(out, emission_plane(list, rest.first(1), size_px, work), *rest[0].glow, work);
@@ -199,7 +200,7 @@ Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
         paint = next_effect(rest);
         if (paint == 0) continue;
         const Paper below{{}, 0, 0, std::make_shared<Picture>(std::move(out))};
-        out = painted(list, below, rest.first(paint), size_px, work);
+        out = painted(list, below, rest.first(paint), options, work);
     }
     if (list.cover) lay_cover(out, *list.cover);
     return out;
@@ -210,7 +211,7 @@ Picture composed(const DisplayList& list, Extent size_px, const Work& work) {
 Picture raster(const DisplayList& list, const RasterOptions& options, const Work& work) {
     assert(options.size_px.x > 0 && options.size_px.y > 0 && list.width_px > 0 && list.height_px > 0);
     tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
-    return arena.execute([&] { return composed(list, options.size_px, work); });
+    return arena.execute([&] { return composed(list, options, work); });
 }
 
 }  // namespace dstylize

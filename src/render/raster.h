@@ -9,6 +9,8 @@ namespace dstylize {
 struct RasterOptions {
     /// Output pixels. Each axis is scaled by size / display list size; the two scales are nearly equal.
     Extent size_px;
+    /// Of samples along each axis, 2 to 8. Fewer are faster; where thin strokes are dense, their ink comes out lower.
+    int most_samples_per_pixel = 8;
 };
 
 /// The display list painted into pixels of straight alpha; the size of the output is free.
