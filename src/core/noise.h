@@ -31,7 +31,9 @@ class Noise {
     /// 32 random bits for `index`.
     constexpr std::uint32_t bits(std::uint64_t index) const { return block(index)[0]; }
     /// Uniform in [0, 1), exact in a float's 24 bits.
-    constexpr float unit(std::uint64_t index) const { return float(bits(index) >> 8) * 0x1p-24f; }
+    constexpr float unit(std::uint64_t index) const { return unit_of(bits(index)); }
+    /// 32 random bits as a number in [0, 1).
+    static constexpr float unit_of(std::uint32_t random) { return float(random >> 8) * 0x1p-24f; }
     /// All four words of the block for `index`; the counter is (index low, index high, purpose, substream).
     constexpr std::array<std::uint32_t, 4> block(std::uint64_t index) const {
         std::array<std::uint32_t, 4> c{std::uint32_t(index), std::uint32_t(index >> 32), purpose_, sub_};

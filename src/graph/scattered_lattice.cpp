@@ -20,8 +20,8 @@ std::vector<Vec2f> scattered_positions(Extent e, Noise noise) {
     for (int j = 0; j < e.y; ++j)
         for (int i = 0; i < e.x; ++i) {
             const auto random = noise.block(std::uint64_t(j) << 32 | std::uint64_t(i));
-            const float x = float(i) + (j % 2 == 0 ? -0.25f : 0.25f) + float(random[0] >> 8) * 0x1p-24f;
-            const float y = float(j) + float(random[1] >> 8) * 0x1p-24f;
+            const float x = float(i) + (j % 2 == 0 ? -0.25f : 0.25f) + Noise::unit_of(random[0]);
+            const float y = float(j) + Noise::unit_of(random[1]);
             constexpr float kRim = 0.02f;
             out.push_back({std::clamp(x, kRim, float(e.x) - kRim), std::clamp(y, kRim, float(e.y) - kRim)});
         }

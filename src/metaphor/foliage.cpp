@@ -12,7 +12,7 @@
 namespace dstylize {
 namespace {
 
-float unit(std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; }
+constexpr auto unit = Noise::unit_of;
 
 /// A colour as its luma and what red and blue have beyond it.
 struct Tint {

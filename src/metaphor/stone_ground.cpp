@@ -24,7 +24,7 @@ class ValueNoise {
             for (int i = 0; i < values_.extent().x; i += 4) {
                 const auto random = noise.block(row + std::uint64_t(i));
                 for (int k = 0; k < 4 && i + k < values_.extent().x; ++k)
-                    value[i + k] = float(random[std::size_t(k)] >> 8) * 0x1p-24f;
+                    value[i + k] = Noise::unit_of(random[std::size_t(k)]);
             }
         });
     }

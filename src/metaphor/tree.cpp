@@ -51,7 +51,7 @@ class Tree final : public Metaphor {
             for (int k = 0; k < blades; ++k) {
                 const auto random = noise.block(2 * draw), more = noise.block(2 * draw + 1);
                 ++draw;
-                const auto unit = [](std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; };
+                const auto unit = Noise::unit_of;
                 // Denser and taller before the trunk, whose round end it hides.
                 const float t = (unit(random[0]) + unit(random[1]) + unit(more[2])) / 1.5f - 1;
                 const float near_trunk = std::exp(-9 * t * t);

@@ -110,7 +110,7 @@ class BrushLayer {
 
     void add_stroke(std::vector<Item>& items, const Place& place, const Planes& below) const {
         const auto random = noise_.block(2 * place.index + 1);
-        const auto unit = [](std::uint32_t bits) { return float(bits >> 8) * 0x1p-24f; };
+        const auto unit = Noise::unit_of;
         const Rgba colour = wanted_(place.x, place.y);
         VariableStroke stroke;
         stroke.colour = lightened(colour, kJitter * (unit(random[0]) - 0.5f) * 2);

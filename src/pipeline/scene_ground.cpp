@@ -112,7 +112,7 @@ void raise_blades(std::vector<float>& heights, float x_px, float width_px, float
     constexpr float kReach = 2.4f;  // to both sides, in widths of the foot
     for (int k = 0; k < kBlades; ++k) {
         const auto random = noise.block(foot * kBlades + std::uint64_t(k));
-        const auto unit = [&](std::size_t n) { return float(random[n] >> 8) * 0x1p-24f; };
+        const auto unit = [&](std::size_t n) { return Noise::unit_of(random[n]); };
         const float t = 2 * unit(0) - 1;
         const float tall = blades * width_px * (0.10f + 0.38f * unit(1)) * std::exp(-3 * t * t);
         const float half = width_px * (0.035f + 0.05f * unit(2));

@@ -37,7 +37,7 @@ Vec2f value_noise(const Noise& noise, Vec2f at_cells) {
     const float x = std::floor(at_cells.x), y = std::floor(at_cells.y);
     const auto corner = [&](int i, int j) {
         const auto bits = noise.block(std::uint64_t(std::uint32_t(int(y) + j)) << 32 | std::uint32_t(int(x) + i));
-        const auto unit = [](std::uint32_t b) { return 2 * float(b >> 8) * 0x1p-24f - 1; };
+        const auto unit = [](std::uint32_t b) { return 2 * Noise::unit_of(b) - 1; };
         return Vec2f{unit(bits[0]), unit(bits[1])};
     };
     const float fx = at_cells.x - x, fy = at_cells.y - y;
