@@ -44,9 +44,7 @@ const char* usage(Parser::Form form) {
             return "dstylize IN OUT [options]       redraw a picture, or a folder of pictures\n"
                    "dstylize write TEXT [IN] OUT    write words with branches, on paper or a picture\n"
                    "dstylize replay OLD IN OUT      make the drawing OLD again, say at another size\n"
-                   "dstylize styles [NAME]          list the styles, or one with all its parameters\n"
-                   "dstylize sbatch IN OUT          draw a folder on many machines, with Slurm\n"
-                   "dstylize merge-reports OUT      make one report of those of all shards\n";
+                   "dstylize styles [NAME]          list the styles, or one with all its parameters\n";
         case Parser::Form::write:
             return "dstylize write TEXT OUT [options]              words on paper\n"
                    "dstylize write TEXT IN OUT [options]           words on the picture IN\n"
@@ -69,6 +67,11 @@ const char* usage(Parser::Form form) {
     }
     return "";
 }
+
+/// Forms that are named where there is room.
+constexpr const char* kFurtherForms =
+    "dstylize sbatch IN OUT          draw a folder on many machines, with Slurm\n"
+    "dstylize merge-reports OUT      make one report of those of all shards\n";
 
 Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy) {
     return Error(ErrorCode::bad_usage, what, problem, remedy);
@@ -177,8 +180,7 @@ void Parser::add_output_options() {
     add(app_.add_option("-o,--output", a.outputs, "one more output: png jpg tif webp svg pdf json"), kOutput)
         ->type_name("FILE")
         ->allow_extra_args(false);
-    add(app_.add_option("--format", a.formats, "of outputs without extension, as of -; of a folder several"), kOutput,
-        false)
+    add(app_.add_option("--format", a.formats, "of outputs without extension; of folders several"), kOutput, false)
         ->type_name("FORMAT")
         ->allow_extra_args(false);
     add(app_.add_option("--quality", a.quality, "jpg, webp: 1 to 100; default 92"), kOutput, false)
@@ -199,10 +201,9 @@ void Parser::add_folder_options() {
     add(app_.add_option("--include", a.patterns, "only these pictures, as '*.jpg'"), kFolder, false)
         ->type_name("PATTERN")
         ->allow_extra_args(false);
-    add(app_.add_option("--name", a.name, "of the drawings: default {stem}; also {style}, {seed}"), kFolder, false)
+    add(app_.add_option("--name", a.name, "of drawings: default {stem}; {style}, {seed}"), kFolder, false)
         ->type_name("TEMPLATE");
-    add(app_.add_option("--manifest", a.manifest, "the pictures; made of the folder where it is missing"), kFolder,
-        false)
+    add(app_.add_option("--manifest", a.manifest, "list of the pictures; made where it is missing"), kFolder, false)
         ->type_name("FILE");
     if (form_ != Form::draw) return;
     CLI::Option* shard =
@@ -217,7 +218,7 @@ void Parser::add_slurm_options() {
     add(app_.add_option("--nodes", a.nodes, "machines to use at a time"), kSlurm)
         ->type_name("N")
         ->check(CLI::Range(1, 100000).description(""));
-    add(app_.add_option("--shards", a.shards, "into which the pictures are divided; default: 4 for each node"), kSlurm)
+    add(app_.add_option("--shards", a.shards, "parts of the work; default: 4 for each node"), kSlurm)
         ->type_name("N")
         ->check(CLI::Range(1, 1000000).description(""));
     add(app_.add_option("--slurm", a.slurm, "an option for sbatch, as --slurm=--partition=cpu"), kSlurm)
@@ -275,6 +276,7 @@ std::string Parser::help(bool all) {
         if (!all) option->group("");
     }
     std::string text = app_.help();
+    if (all && form_ == Form::draw) text.insert(text.find("\n\n") + 1, kFurtherForms);
     // CLI11 puts two empty lines between groups: the page would not fit a screen.
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     text.erase(text.find_last_not_of('\n') + 2);

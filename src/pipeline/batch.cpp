@@ -84,8 +84,10 @@ Style style_of(const BatchRequest& request) {
     return load_style(request.each.style, request.each.settings, request.each.user_styles);
 }
 
-std::vector<fs::path> listed(const BatchRequest& request) {
-    std::vector<fs::path> pictures = pictures_in(request.input, request.patterns, root_of(request));
+std::vector<std::string> listed(const BatchRequest& request) {
+    std::vector<std::string> pictures;
+    for (const fs::path& picture : pictures_in(request.input, request.patterns, root_of(request)))
+        pictures.push_back(picture.string());
     if (pictures.empty() && !request.only)
         throw Error(ErrorCode::cannot_read, request.input.string(), "has no pictures",
                     "give another folder, or patterns of names with --include");
@@ -123,16 +125,15 @@ class Batch {
 
     BatchReport report() && {
         const Manifest manifest = batch_pictures(request_);
-        const std::vector<fs::path>& pictures = manifest.pictures;
         report_.manifest_xxh128 = manifest.xxh128;
         Style style = style_of(request_);
         const std::vector<std::string> formats = formats_of(request_);
         const std::string way = way_of(request_.each, style_toml(style));
         for (const std::string& format : formats) keys_.push_back(hash_of(way + format));
         report_.style = style.name;
-        report_.all = pictures.size();
+        report_.all = manifest.pictures.size();
         report_.key = hash_of(fmt::format("{}\n{} {}", way, fmt::join(formats, " "), request_.name));
-        choose(pictures, result_names(pictures, {request_.name, style.name, request_.each.seed, formats}));
+        choose(manifest.pictures, {{request_.name, style.name, request_.each.seed, formats}, manifest.pictures});
         ledger_.emplace(request_.output, request_.shard);
         if (!request_.each.dry_run) {
             make_folder(ledger_->file().parent_path());
@@ -144,12 +145,10 @@ class Batch {
     }
 
   private:
-    void choose(const std::vector<fs::path>& pictures, const std::vector<std::vector<fs::path>>& results) {
-        for (const std::size_t k : shard_entries(request_.shard.value_or(Shard()), pictures.size())) {
-            if (request_.only && !request_.only->contains(pictures[k])) continue;
-            report_.pictures.push_back({pictures[k].string(), {}, State::failed, {}, {}});
-            for (const fs::path& result : results[k]) report_.pictures.back().results.push_back(result.string());
-        }
+    void choose(const std::vector<std::string>& pictures, const ResultNames& names) {
+        for (const std::size_t k : shard_entries(request_.shard.value_or(Shard()), pictures.size()))
+            if (!request_.only || request_.only->contains(pictures[k]))
+                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::failed, {}, {}});
     }
 
     /// First all, several at a time; then those that need more memory than their share, one by one.
@@ -170,7 +169,9 @@ class Batch {
         std::exception_ptr fault;
         const auto draw_some = [&] {
             try {
-                PictureCodec codec(request_.codec);
+                CodecOptions share = request_.codec;
+                share.max_memory_bytes /= workers;
+                PictureCodec codec(share);
                 for (std::size_t k; (k = next++) < pictures.size();) finish(pictures[k], workers, threads, codec);
             } catch (...) {
                 const std::scoped_lock lock(mutex_);
@@ -193,7 +194,9 @@ class Batch {
             picture.state = drawn(picture, workers, threads, codec);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) throw;
-            if (error.code() == ErrorCode::bad_usage && workers > 1) {
+            // Reading, too, can fail for want of memory.
+            const bool may_need_more = error.code() == ErrorCode::bad_usage || error.code() == ErrorCode::cannot_read;
+            if (may_need_more && workers > 1) {
                 const std::scoped_lock lock(mutex_);
                 postponed_.push_back(index);
                 return;
@@ -318,8 +321,8 @@ Manifest batch_pictures(const BatchRequest& request) {
     check_folders(request);
     const std::vector<std::string> formats = formats_of(request);
     const auto list = [&] {
-        std::vector<fs::path> pictures = listed(request);
-        result_names({}, {request.name, style_of(request).name, request.each.seed, formats});  // throws
+        std::vector<std::string> pictures = listed(request);
+        ResultNames({request.name, style_of(request).name, request.each.seed, formats}, {});  // throws
         return pictures;
     };
     std::error_code ignored;

@@ -23,7 +23,7 @@ struct BatchRequest {
     std::filesystem::path leave_out;      ///< a folder of results in `input`; empty: `output`
     std::vector<std::string> patterns;    ///< as pictures_in takes them
     std::vector<std::string> formats;     ///< every drawing is written in each of them; empty: png
-    std::string name = "{stem}";          ///< as result_names takes it
+    std::string name = "{stem}";          ///< as ResultNaming::name
     std::filesystem::path manifest;       ///< says which pictures, and is made if need be; empty: those in the folder
     std::optional<Shard> shard;           ///< draw only this share of them
     std::optional<std::set<std::filesystem::path>> only;  ///< draw only these of them

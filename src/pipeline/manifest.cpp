@@ -27,18 +27,21 @@ class Reader {
   public:
     Reader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-    std::vector<fs::path> pictures() && {
+    std::vector<std::string> pictures() && {
         const std::string head(line());
-        std::vector<fs::path> out;
-        while (!text_.empty()) out.push_back(path(line()));
+        std::vector<std::string> out;
+        std::vector<std::string_view> lines;
+        while (!text_.empty()) {
+            lines.push_back(line());
+            out.push_back(path(lines.back()));
+        }
         if (head != fmt::format("{}{}", kHead, out.size())) {
             if (!head.starts_with(kHead)) refuse("is no manifest");
             refuse(fmt::format("is not whole: it lists {} pictures", out.size()));
         }
-        std::vector<fs::path> sorted = out;
-        std::sort(sorted.begin(), sorted.end());
-        const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-        if (twice != sorted.end()) refuse("names " + twice->string() + " twice");
+        std::sort(lines.begin(), lines.end());
+        const auto twice = std::adjacent_find(lines.begin(), lines.end());
+        if (twice != lines.end()) refuse(fmt::format("names {} twice", *twice));
         return out;
     }
 
@@ -55,7 +58,7 @@ class Reader {
         return out;
     }
 
-    fs::path path(std::string_view escaped) const {
+    std::string path(std::string_view escaped) const {
         std::string out;
         for (std::size_t k = 0; k < escaped.size(); ++k) {
             if (escaped[k] != '\\') {
@@ -66,11 +69,11 @@ class Reader {
             if (c != '\\' && c != 'n') refuse("has a line that is no path: " + std::string(escaped));
             out += c == 'n' ? '\n' : c;
         }
-        fs::path path = out;
+        const fs::path path = out;
         const bool leads_out = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
-        if (path.empty() || leads_out || !path.has_filename())
+        if (path.empty() || leads_out || !path.has_filename() || path.lexically_normal().native() != out)
             refuse("has a line that is no path from the folder: " + std::string(escaped));
-        return path;
+        return out;
     }
 
     std::string_view text_;
@@ -79,9 +82,9 @@ class Reader {
 
 }  // namespace
 
-std::string manifest_text(const std::vector<fs::path>& pictures) {
+std::string manifest_text(const std::vector<std::string>& pictures) {
     std::string out = fmt::format("{}{}\n", kHead, pictures.size());
-    for (const fs::path& picture : pictures) out += escaped(picture.generic_string()) + "\n";
+    for (const std::string& picture : pictures) out += escaped(picture) + "\n";
     return out;
 }
 
@@ -89,7 +92,7 @@ Manifest parsed_manifest(std::string_view text, const std::string& name) {
     return {Reader(text, name).pictures(), content_hash(std::as_bytes(std::span(text)))};
 }
 
-Manifest frozen_manifest(const fs::path& file, const std::function<std::vector<fs::path>()>& list) {
+Manifest frozen_manifest(const fs::path& file, const std::function<std::vector<std::string>()>& list) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) {
         const std::string text = manifest_text(list());

@@ -1,7 +1,7 @@
 #include "pipeline/result_names.h"
 
 #include <algorithm>
-#include <map>
+#include <filesystem>
 
 #include "core/error.h"
 
@@ -43,24 +43,34 @@ void check(const ResultNaming& naming) {
         refuse(naming, "leads out of the folder of the drawings", "write a name, or a path from there");
 }
 
+/// The result's path but for its extension.
+std::string named(const ResultNaming& naming, const fs::path& picture, const fs::path& stem) {
+    return (picture.parent_path() / filled(naming, stem.string())).lexically_normal().string();
+}
+
 }  // namespace
 
-std::vector<std::vector<fs::path>> result_names(const std::vector<fs::path>& pictures, const ResultNaming& naming) {
-    check(naming);
-    const auto named = [&](const fs::path& picture, const fs::path& stem) {
-        return (picture.parent_path() / filled(naming, stem.string())).lexically_normal();
-    };
-    std::map<fs::path, int> times;
-    const auto& extensions = naming.extensions;
-    if (std::find(extensions.begin(), extensions.end(), "json") != extensions.end()) ++times["report"];
-    for (const fs::path& picture : pictures) ++times[named(picture, picture.stem())];
-    std::vector<std::vector<fs::path>> out;
-    for (const fs::path& picture : pictures) {
-        fs::path plain = named(picture, picture.stem());
-        if (times[plain] > 1) plain = named(picture, picture.filename());
-        out.emplace_back();
-        for (const std::string& extension : extensions) out.back().emplace_back(plain.string() + "." + extension);
+ResultNames::ResultNames(ResultNaming naming, const std::vector<std::string>& all_pictures)
+    : naming_(std::move(naming)) {
+    check(naming_);
+    std::vector<std::string> names;
+    names.reserve(all_pictures.size() + 1);
+    const auto& extensions = naming_.extensions;
+    if (std::find(extensions.begin(), extensions.end(), "json") != extensions.end()) names.emplace_back("report");
+    for (const fs::path picture : all_pictures) names.push_back(named(naming_, picture, picture.stem()));
+    std::sort(names.begin(), names.end());
+    for (auto at = names.begin(); (at = std::adjacent_find(at, names.end())) != names.end();) {
+        shared_.push_back(*at);
+        at = std::upper_bound(at, names.end(), shared_.back());
     }
+}
+
+std::vector<std::string> ResultNames::of(const std::string& picture) const {
+    const fs::path path = picture;
+    std::string name = named(naming_, path, path.stem());
+    if (std::binary_search(shared_.begin(), shared_.end(), name)) name = named(naming_, path, path.filename());
+    std::vector<std::string> out;
+    for (const std::string& extension : naming_.extensions) out.push_back(name + "." + extension);
     return out;
 }
 

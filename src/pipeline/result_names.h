@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,20 @@ struct ResultNaming {
     std::vector<std::string> extensions;  ///< of every picture's results, in this order
 };
 
-/// The results of each picture, as paths from the output folder. Pictures whose results would share a name, with each
-/// other or with the batch's own report, keep their extensions inside it: a.jpg and a.png become a.jpg.png and
-/// a.png.png. Throws Error(bad_usage) for a name that has no {stem}, an unknown field, or a way out of the folder.
-std::vector<std::vector<std::filesystem::path>> result_names(const std::vector<std::filesystem::path>& pictures,
-                                                             const ResultNaming& naming);
+/// The names of results, as paths from the output folder, of pictures that are given as paths from the input folder.
+/// Pictures whose results would share a name, with each other or with the batch's own report, keep their extensions
+/// inside it: a.jpg and a.png become a.jpg.png and a.png.png.
+class ResultNames {
+  public:
+    /// Throws Error(bad_usage) for a name that has no {stem}, an unknown field, or a way out of the folder.
+    ResultNames(ResultNaming naming, const std::vector<std::string>& all_pictures);
+
+    /// One of the pictures' results.
+    std::vector<std::string> of(const std::string& picture) const;
+
+  private:
+    ResultNaming naming_;
+    std::vector<std::string> shared_;  ///< names that several results would have, in order
+};
 
 }  // namespace dstylize

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 class Slurm : public FolderTest {
   protected:
     static constexpr int kPictures = 24, kShards = 4;
-    const Words style_{"--style", "ink", "--detail", "400"};
+    const Words style_{"--style", "ink", "--detail", "700"};
 
     Slurm() {
         fs::remove_all(folder_ / "photos");

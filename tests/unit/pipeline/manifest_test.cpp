@@ -11,7 +11,7 @@
 namespace dstylize {
 namespace {
 
-using Paths = std::vector<std::filesystem::path>;
+using Paths = std::vector<std::string>;
 
 TEST(Manifest, HoldsAnyName) {
     const Paths names{"a.png", "sea/b c.jpg", "new\nline", "back\\slash\\n", "\xff\xfe.png", "# hash", "..dots/..x"};
@@ -26,7 +26,7 @@ TEST(Manifest, IsRefusedInEveryLengthButItsOwn) {
 }
 
 TEST(Manifest, LeadsNowhereElse) {
-    for (const char* path : {"../a", "/a", "a/../../b", "a/", "", "x\\y"})
+    for (const char* path : {"../a", "/a", "a/../../b", "a/", "", "x\\y", "./a", "a//b"})
         EXPECT_THROW(parsed_manifest(std::string("# dstylize manifest 1, pictures: 1\n") + path + "\n", "m"), Error)
             << path;
 }
