@@ -55,8 +55,8 @@ const char* usage(Parser::Form form) {
                    "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
         case Parser::Form::sbatch:
             return "dstylize sbatch IN OUT --nodes N [options]\n"
-                   "Writes a Slurm job array that draws the folder IN into the folder OUT, and a job that merges\n"
-                   "the reports. It takes every option of a drawing.\n";
+                   "Writes a Slurm job array that draws the folder IN into the folder OUT, and a\n"
+                   "job that merges the reports. Takes every option of a drawing.\n";
         case Parser::Form::merge:
             return "dstylize merge-reports OUT...\n"
                    "Makes of the reports of all shards that of the whole run.\n";
