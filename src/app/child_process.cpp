@@ -46,7 +46,7 @@ std::string output_of(const std::vector<std::string>& command) {
     const int error = ::posix_spawnp(&child, words[0], &files, nullptr, words.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     ::close(ends[1]);
-    const std::string out = error == 0 ? read_all(ends[0]) : "";
+    std::string out = error == 0 ? read_all(ends[0]) : "";
     ::close(ends[0]);
     if (error != 0)
         refuse(command[0], std::string("cannot be started (") + std::strerror(error) + ")",

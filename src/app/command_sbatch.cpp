@@ -52,7 +52,7 @@ std::string submitted(std::vector<std::string> options, const fs::path& script) 
     options.insert(options.begin(), {"sbatch", "--parsable"});
     options.push_back(script.string());
     const std::string said = output_of(options);
-    const std::string id = said.substr(0, said.find_first_not_of("0123456789"));
+    std::string id = said.substr(0, said.find_first_not_of("0123456789"));
     if (id.empty()) throw Error(ErrorCode::failed, "sbatch", "names no job", "see squeue");
     return id;
 }
