@@ -137,6 +137,7 @@ class Batch {
         ledger_.emplace(request_.output, request_.shard);
         if (!request_.each.dry_run) {
             make_folder(ledger_->file().parent_path());
+            check_inside(ledger_->file());
             ledger_->take_over_shards();
         }
         draw_all();

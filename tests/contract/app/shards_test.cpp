@@ -95,6 +95,16 @@ TEST_F(ShardsTest, AreNotMergedUnlessAllAreThereAndOfOneRun) {
     EXPECT_FALSE(fs::exists(folder_ / "out/report.json"));
 }
 
+TEST_F(ShardsTest, AreTakenOverFromNoOtherFolder) {
+    fs::create_directories(folder_ / "elsewhere/shards/2");
+    fs::create_directories(folder_ / "out");
+    fs::create_directory_symlink("../elsewhere", folder_ / "out/.dstylize");
+    for (const Outcome& outcome : {draw_all(), draw_shard("1/2")})
+        expect_error(outcome, 4, {"out/.dstylize", "a link leads out"});
+    EXPECT_TRUE(fs::exists(folder_ / "elsewhere/shards/2"));
+    EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere/shards/2"));
+}
+
 TEST_F(ShardsTest, RefuseWrongUsageAndManifestsThatAreNotWhole) {
     expect_error(draw({"photos", "out", "--shard", "1/2"}), 2, {"--shard 1/2", "--manifest"});
     for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2x"})
