@@ -5,7 +5,8 @@ _dstylize() {
     local output='--size --scale -o --output --format --quality --compression --recipe --no-recipe -f --force
         --dry-run -q --quiet -v --verbose --json --threads --max-memory --allow-damaged -h --help'
     local draw='-s --style --set --detail --seed --root --mask --importance --importance-mode --endpoints
-        --background --place --blend --show --include --help-all --version'
+        --background --place --blend --show --include --name --manifest --shard --watch --help-all --version'
+    local draw_slurm='--nodes --shards --slurm --submit'
     local draw_words='--font --text-size --align --letter-spacing --line-spacing'
     COMPREPLY=()
     if [[ $before == -s || $before == --style || ($verb == styles && $COMP_CWORD == 2) ]]; then
@@ -21,16 +22,19 @@ _dstylize() {
     --blend) words='over multiply screen soft-light' ;;
     --background) words='input none' ;;
     --show) words=$("${COMP_WORDS[0]}" styles --fields 2>/dev/null | grep -v '^--' | cut -d ' ' -f 1)' weights endpoints distance owners tree' ;;
-    --set | --detail | --seed | --size | --scale | --quality | --compression | --text-size | --place | --letter-spacing | --line-spacing | --include | --threads | --max-memory) return ;;
+    --set | --detail | --seed | --size | --scale | --quality | --compression | --text-size | --place | --letter-spacing | --line-spacing | --include | --name | --shard | --nodes | --shards | --slurm | --threads | --max-memory) return ;;
     *)
         if [[ $verb == styles ]]; then
             words="$styles --fields --copy -f --force -h --help"
+        elif [[ $verb == merge-reports ]]; then
+            words='--json -q --quiet -h --help'
         elif [[ $word == -* ]]; then
             words=$output
             [[ $verb == replay ]] || words+=" $draw"
             [[ $verb != write ]] || words+=" $draw_words"
+            [[ $verb != sbatch ]] || words+=" $draw_slurm"
         elif ((COMP_CWORD == 1)); then
-            words='styles write replay'
+            words='styles write replay sbatch merge-reports'
         fi
         ;;
     esac

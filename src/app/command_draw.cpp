@@ -8,16 +8,10 @@
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/requests.h"
 #include "pipeline/replay.h"
 
 namespace dstylize::app {
-
-CodecOptions codec_options(const Arguments& arguments) {
-    CodecOptions options;
-    options.max_memory_bytes = arguments.max_memory;
-    options.allow_damaged = arguments.allow_damaged;
-    return options;
-}
 
 void refuse_folder(const std::filesystem::path& input) {
     std::error_code ignored;
@@ -52,11 +46,18 @@ RunReport run_and_report(const RunRequest& request, const Arguments& arguments, 
 ExitCode draw(const Arguments& arguments) {
     std::error_code ignored;
     if (!arguments.names.empty() && std::filesystem::is_directory(arguments.names[0], ignored))
-        return draw_folder(arguments);
+        return arguments.watch ? watch_folder(arguments) : draw_folder(arguments);
     const RunRequest request = draw_request(arguments);
-    if (!arguments.patterns.empty())
-        throw Error(ErrorCode::bad_usage, request.input.string(), "is no folder, and --include is for folders",
-                    "leave it out");
+    const auto refuse_option = [&](bool given, const char* option) {
+        if (given)
+            throw Error(ErrorCode::bad_usage, request.input.string(),
+                        fmt::format("is no folder, and {} is for folders", option), "leave it out");
+    };
+    refuse_option(!arguments.patterns.empty(), "--include");
+    refuse_option(arguments.name != Arguments().name, "--name");
+    refuse_option(!arguments.manifest.empty(), "--manifest");
+    refuse_option(!arguments.shard.empty(), "--shard");
+    refuse_option(arguments.watch, "--watch");
     Interrupt interrupt;
     PictureCodec codec(codec_options(arguments));  // loads while the style is read
     run_and_report(request, arguments, codec, interrupt);

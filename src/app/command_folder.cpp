@@ -1,44 +1,50 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/requests.h"
 #include "pipeline/batch_report.h"
-#include "pipeline/style_file.h"
+#include "pipeline/shard_reports.h"
 
 namespace dstylize::app {
 namespace {
 
 using State = BatchPicture::State;
 
-BatchRequest batch_request(const Arguments& arguments) {
-    BatchRequest batch;
-    batch.each = draw_request(arguments);
-    batch.input = batch.each.input;
-    if (arguments.names.size() > 1) {
-        batch.output = arguments.names[1];
-        batch.each.outputs.erase(batch.each.outputs.begin());
+/// Writes the reports, and returns the one that a person should see.
+std::filesystem::path write_reports(const BatchRequest& batch, const BatchReport& report) {
+    if (batch.shard) {
+        write_shard_report(report, batch.input, batch.output, *batch.shard);
+        return shard_report(batch.output, *batch.shard);
     }
-    batch.patterns = arguments.patterns;
-    batch.codec = codec_options(arguments);
-    return batch;
+    write_batch_reports(report, batch.input, batch.output);
+    return batch.output / "index.html";
 }
 
-std::string summary(const BatchRequest& batch, const BatchReport& report, double seconds) {
+BatchReport draw_batch(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt) {
+    const bool dry_run = batch.each.dry_run;
+    if (batch.shard && !dry_run) remove_shard_report(batch.output, *batch.shard);
+    auto [report, seconds] = run_folder(batch, arguments, interrupt);
+    std::string text = folder_summary(report, dry_run);
+    if (!dry_run) text += fmt::format("in {:.1f} s; see {}\n", seconds, write_reports(batch, report).string());
+    if (!arguments.json && (!arguments.quiet || dry_run)) print(text);
+    return std::move(report);
+}
+
+}  // namespace
+
+std::string folder_summary(const BatchReport& report, bool dry_run) {
     std::string out;
     for (const BatchPicture& picture : report.pictures)
         if (picture.state == State::failed) out += fmt::format("failed       {}\n", picture.input);
-    out += fmt::format("{:<12} {:>6}\nup to date   {:>6}\nfailed       {:>6}\n",
-                       batch.each.dry_run ? "to be drawn" : "drawn", report.count(State::done),
-                       report.count(State::up_to_date), report.count(State::failed));
-    if (batch.each.dry_run) return out;
-    return out + fmt::format("in {:.1f} s; see {}\n", seconds, (batch.output / "index.html").string());
+    return out + fmt::format("{:<12} {:>6}\nup to date   {:>6}\nfailed       {:>6}\n",
+                             dry_run ? "to be drawn" : "drawn", report.count(State::done),
+                             report.count(State::up_to_date), report.count(State::failed));
 }
 
-/// One batch; the bars of several follow each other.
-BatchReport run_and_tell(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt) {
+std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt,
+                                          const std::function<void(const BatchPicture&)>& tell) {
     Progress progress(!arguments.quiet && ::isatty(STDERR_FILENO) == 1);
     Work work;
     work.stop = interrupt.token();
@@ -53,39 +59,20 @@ BatchReport run_and_tell(const BatchRequest& batch, const Arguments& arguments, 
             if (now.picture->state == State::failed)
                 print_error({ErrorCode::failed, (batch.input / now.picture->input).string(), now.picture->problem,
                              now.picture->remedy});
+            if (tell) tell(*now.picture);
         },
         work);
     progress.finish();
-    if (!arguments.json && (!arguments.quiet || batch.each.dry_run)) print(summary(batch, report, progress.seconds()));
-    return report;
+    return {std::move(report), progress.seconds()};
 }
-
-/// A batch for each style; the results of several lie in a folder each.
-std::vector<BatchRequest> batches(const Arguments& arguments) {
-    BatchRequest batch = batch_request(arguments);
-    if (arguments.styles.size() < 2 || batch.output.empty()) return {batch};
-    std::vector<BatchRequest> out;
-    batch.leave_out = batch.output;
-    for (const std::string& style : arguments.styles) {
-        batch.each.style = style;
-        batch.output = batch.leave_out / load_style(style, batch.each.settings, batch.each.user_styles).name;
-        for (const BatchRequest& other : out)
-            if (other.output == batch.output)
-                throw Error(ErrorCode::bad_usage, "--style " + style, "is given twice", "leave one of them out");
-        out.push_back(batch);
-    }
-    return out;
-}
-
-}  // namespace
 
 ExitCode draw_folder(const Arguments& arguments) {
-    const std::vector<BatchRequest> requests = batches(arguments);
+    const std::vector<BatchRequest> requests = folder_requests(arguments);
     Interrupt interrupt;
     ExitCode code = kDone;
     std::vector<BatchReport> reports;
     for (const BatchRequest& batch : requests) {
-        reports.push_back(run_and_tell(batch, arguments, interrupt));
+        reports.push_back(draw_batch(batch, arguments, interrupt));
         if (reports.back().count(State::failed) > 0) code = kSomeFailed;
     }
     if (arguments.json) print(batch_report_json(reports));

@@ -1,5 +1,6 @@
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/requests.h"
 
 namespace dstylize::app {
 

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <new>
 
 #include "app/commands.h"
@@ -64,16 +65,23 @@ ExitCode run_form(Parser::Form form, std::vector<std::string> words, Arguments& 
         case Parser::Form::write: write(arguments); break;
         case Parser::Form::replay: replay(arguments); break;
         case Parser::Form::styles: list_styles(arguments); break;
+        case Parser::Form::sbatch: write_slurm_jobs(arguments, parser); break;
+        case Parser::Form::merge: return merge_reports(arguments);
     }
     return kDone;
 }
 
 int run_program(std::vector<std::string> words) {
+    static const std::map<std::string, Parser::Form> kVerbs{{"styles", Parser::Form::styles},
+                                                            {"write", Parser::Form::write},
+                                                            {"replay", Parser::Form::replay},
+                                                            {"sbatch", Parser::Form::sbatch},
+                                                            {"merge-reports", Parser::Form::merge}};
     Parser::Form form = Parser::Form::draw;
-    if (!words.empty() && words[0] == "styles") form = Parser::Form::styles;
-    if (!words.empty() && words[0] == "write") form = Parser::Form::write;
-    if (!words.empty() && words[0] == "replay") form = Parser::Form::replay;
-    if (form != Parser::Form::draw) words.erase(words.begin());
+    if (const auto verb = words.empty() ? kVerbs.end() : kVerbs.find(words[0]); verb != kVerbs.end()) {
+        form = verb->second;
+        words.erase(words.begin());
+    }
     Arguments arguments;
     try {
         return run_form(form, std::move(words), arguments);

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/commands.h"
 #include "core/error.h"
-#include "pipeline/control_text.h"
+#include "pipeline/style_file.h"
+#include "pipeline/writing.h"
 
 namespace dstylize::app {
 namespace {
@@ -17,6 +17,8 @@ constexpr const char* kStyle = "Style";
 constexpr const char* kText = "Words";
 constexpr const char* kHand = "By hand";
 constexpr const char* kOutput = "Output";
+constexpr const char* kFolder = "Folders";
+constexpr const char* kSlurm = "Slurm";
 constexpr const char* kRun = "Run";
 constexpr int kHelpColumn = 30;
 /// What the codec needs before it has seen a picture, and a little more.
@@ -51,6 +53,13 @@ const char* usage(Parser::Form form) {
         case Parser::Form::replay:
             return "dstylize replay OLD IN OUT [options]\n"
                    "Makes the drawing OLD (or a --recipe file) again from the picture IN.\n";
+        case Parser::Form::sbatch:
+            return "dstylize sbatch IN OUT --nodes N [options]\n"
+                   "Writes a Slurm job array that draws the folder IN into the folder OUT, and a\n"
+                   "job that merges the reports. Takes every option of a drawing.\n";
+        case Parser::Form::merge:
+            return "dstylize merge-reports OUT...\n"
+                   "Makes of the reports of all shards that of the whole run.\n";
         case Parser::Form::styles:
             return "dstylize styles [NAME|FILE] [--fields]\n"
                    "dstylize styles --copy NAME FILE\n"
@@ -58,6 +67,11 @@ const char* usage(Parser::Form form) {
     }
     return "";
 }
+
+/// Forms that are named where there is room.
+constexpr const char* kFurtherForms =
+    "dstylize sbatch IN OUT          draw a folder on many machines, with Slurm\n"
+    "dstylize merge-reports OUT      make one report of those of all shards\n";
 
 Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy) {
     return Error(ErrorCode::bad_usage, what, problem, remedy);
@@ -70,18 +84,24 @@ Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(argume
     app_.set_help_flag();
     app_.allow_extras();
     app_.add_option("names", arguments_.names);
+    Arguments& a = arguments_;
     if (form == Form::write) add_text_options();
-    if (form == Form::draw || form == Form::write) {
+    if (form == Form::sbatch) add_slurm_options();
+    if (form == Form::draw || form == Form::write || form == Form::sbatch) {
         add_style_options();
         add_hand_options();
     }
-    if (form != Form::styles) {
-        add_output_options();
-        add_run_options();
-    } else {
-        add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
-        add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to change it there"), kStyle);
-        add(app_.add_flag("-f,--force", arguments_.force, "replace FILE"), kStyle);
+    if (form != Form::styles && form != Form::merge) add_output_options();
+    if (form == Form::draw || form == Form::sbatch) add_folder_options();
+    if (form != Form::styles && form != Form::merge) add_run_options();
+    if (form == Form::merge) {
+        add(app_.add_flag("--json", a.json, "the report as JSON on standard output"), kRun);
+        add(app_.add_flag("-q,--quiet", a.quiet, "no summary"), kRun);
+    }
+    if (form == Form::styles) {
+        add(app_.add_flag("--fields", a.fields, "list the fields that styles and --show name"), kStyle);
+        add(app_.add_flag("--copy", a.copy, "copy the style NAME to FILE, to change it there"), kStyle);
+        add(app_.add_flag("-f,--force", a.force, "replace FILE"), kStyle);
     }
     add_help_options();
 }
@@ -160,12 +180,9 @@ void Parser::add_output_options() {
     add(app_.add_option("-o,--output", a.outputs, "one more output: png jpg tif webp svg pdf json"), kOutput)
         ->type_name("FILE")
         ->allow_extra_args(false);
-    if (form_ == Form::draw)
-        add(app_.add_option("--include", a.patterns, "of a folder only these pictures, as '*.jpg'"), kOutput, false)
-            ->type_name("PATTERN")
-            ->allow_extra_args(false);
-    add(app_.add_option("--format", a.format, "of outputs without extension, as of -"), kOutput, false)
-        ->type_name("FORMAT");
+    add(app_.add_option("--format", a.formats, "of outputs without extension; of folders several"), kOutput, false)
+        ->type_name("FORMAT")
+        ->allow_extra_args(false);
     add(app_.add_option("--quality", a.quality, "jpg, webp: 1 to 100; default 92"), kOutput, false)
         ->type_name("N")
         ->check(CLI::Range(1, 100).description(""));
@@ -177,6 +194,37 @@ void Parser::add_output_options() {
     add(app_.add_flag("--no-recipe", a.no_recipe, "leave the recipe out of the outputs"), kOutput, false);
     add(app_.add_flag("-f,--force", a.force, "replace files that dstylize did not make"), kOutput);
     add(app_.add_flag("--dry-run", a.dry_run, "check everything, say what would be done"), kOutput);
+}
+
+void Parser::add_folder_options() {
+    Arguments& a = arguments_;
+    add(app_.add_option("--include", a.patterns, "only these pictures, as '*.jpg'"), kFolder, false)
+        ->type_name("PATTERN")
+        ->allow_extra_args(false);
+    add(app_.add_option("--name", a.name, "of drawings: default {stem}; {style}, {seed}"), kFolder, false)
+        ->type_name("TEMPLATE");
+    add(app_.add_option("--manifest", a.manifest, "list of the pictures; made where it is missing"), kFolder, false)
+        ->type_name("FILE");
+    if (form_ != Form::draw) return;
+    CLI::Option* shard =
+        add(app_.add_option("--shard", a.shard, "draw only every N-th of the manifest"), kFolder, false);
+    shard->type_name("K/N");
+    add(app_.add_flag("--watch", a.watch, "draw what comes into the folder, until interrupted"), kFolder, false)
+        ->excludes(shard);
+}
+
+void Parser::add_slurm_options() {
+    Arguments& a = arguments_;
+    add(app_.add_option("--nodes", a.nodes, "machines to use at a time"), kSlurm)
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000).description(""));
+    add(app_.add_option("--shards", a.shards, "parts of the work; default: 4 for each node"), kSlurm)
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000).description(""));
+    add(app_.add_option("--slurm", a.slurm, "an option for sbatch, as --slurm=--partition=cpu"), kSlurm)
+        ->type_name("OPTION")
+        ->allow_extra_args(false);
+    add(app_.add_flag("--submit", a.submit, "submit both, too"), kSlurm);
 }
 
 void Parser::add_run_options() {
@@ -228,6 +276,7 @@ std::string Parser::help(bool all) {
         if (!all) option->group("");
     }
     std::string text = app_.help();
+    if (all && form_ == Form::draw) text.insert(text.find("\n\n") + 1, kFurtherForms);
     // CLI11 puts two empty lines between groups: the page would not fit a screen.
     for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
     text.erase(text.find_last_not_of('\n') + 2);
@@ -235,117 +284,18 @@ std::string Parser::help(bool all) {
     return text;
 }
 
-void set_output_options(RunRequest& request, const Arguments& a) {
-    for (const std::string& output : a.outputs) request.outputs.emplace_back(output);
-    request.format = a.format;
-    if (!a.size.empty()) request.size = parsed_output_size(a.size);
-    if (a.scale > 0) request.size = {OutputSize::Kind::scale, a.scale, OutputSize::kDefaultDpi, {}, 0, 0};
-    request.quality = a.quality;
-    request.compression = a.compression;
-    request.keep_recipe = !a.no_recipe;
-    request.recipe_file = a.recipe_file;
-    request.force = a.force;
-    request.dry_run = a.dry_run;
-    request.max_memory_bytes = a.max_memory;
-}
-
-void check_standard_output(const RunRequest& request, const Arguments& a) {
-    const auto writers = std::count(request.outputs.begin(), request.outputs.end(), "-") + (a.recipe_file == "-") +
-                         (a.json || a.dry_run);
-    if (writers > 1)
-        throw usage_error("", "more than one thing would be written to standard output", "write all but one to files");
-}
-
-namespace {
-
-/// What `draw` and `write` share.
-RunRequest picture_request(const Arguments& a) {
-    RunRequest request;
-    set_output_options(request, a);
-    if (!a.styles.empty()) request.style = a.styles[0];
-    request.user_styles = user_style_folder();
-    for (const std::string& setting : a.settings) {
-        const std::size_t equals = setting.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw usage_error("--set " + setting, "not a parameter and its value", "write section.key=value");
-        request.settings.push_back({setting.substr(0, equals), setting.substr(equals + 1)});
+std::vector<std::string> Parser::given_options(const std::set<std::string>& but) const {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : app_.get_options()) {
+        if (option->count() == 0 || option->get_lnames().empty() || but.contains(option->get_lnames().front()))
+            continue;
+        const std::string name = "--" + option->get_lnames().front();
+        if (option->get_type_size() == 0)
+            words.push_back(name);
+        else
+            for (const std::string& value : option->results()) words.push_back(name + "=" + value);
     }
-    if (!a.blend.empty()) request.settings.push_back({"scene.blend", a.blend});
-    request.detail = a.detail;
-    request.seed = std::uint64_t(a.seed);
-    request.no_picture = a.importance == "none";
-    if (!request.no_picture) request.importance.path = a.importance;
-    request.importance_replaces = a.importance_mode == "replace";
-    if (!a.importance_mode.empty() && request.importance.path.empty())
-        throw usage_error("--importance-mode", "there is no map for it", "give --importance FILE");
-    request.mask.path = a.mask;
-    request.endpoints.path = a.endpoints;
-    for (const std::string& root : a.roots) request.roots.push_back(parsed_root(root));
-    if (!a.background.empty()) request.background = parsed_background(a.background);
-    request.show = a.show;
-    return request;
-}
-
-/// In `write` two numbers are where the words' middle lies, four a box in the background.
-bool is_box(const std::string& place) { return std::count(place.begin(), place.end(), ',') > 1; }
-
-/// Shells pass \\n as two characters.
-std::string with_line_breaks(std::string text) {
-    for (std::size_t at; (at = text.find("\\n")) != std::string::npos;) text.replace(at, 2, "\n");
-    return text;
-}
-
-Writing writing(const Arguments& a) {
-    Writing out;
-    out.lettering.text = with_line_breaks(a.names[0]);
-    if (!a.font.empty()) out.lettering.font = a.font;
-    if (!a.align.empty())
-        out.lettering.align = a.align == "left"    ? Lettering::Align::left
-                              : a.align == "right" ? Lettering::Align::right
-                                                   : Lettering::Align::centre;
-    out.lettering.letter_spacing = a.letter_spacing;
-    out.lettering.line_spacing = a.line_spacing;
-    out.size = a.text_size;
-    if (a.place.empty() || is_box(a.place)) return out;
-    const RootChoice place = parsed_root(a.place);
-    if (place.place)
-        throw usage_error("--place " + a.place, "is not a point",
-                          "write x,y: fractions with a decimal point, or pixels");
-    out.x = place.x;
-    out.y = place.y;
-    return out;
-}
-
-}  // namespace
-
-RunRequest draw_request(const Arguments& a) {
-    if (a.names.empty()) throw usage_error("", "no picture is named", "write dstylize IN OUT, or see dstylize --help");
-    if (a.names.size() > 2)
-        throw usage_error(a.names[2], "is one name too many", "write dstylize IN OUT; further outputs with -o");
-    RunRequest request = picture_request(a);
-    request.input = a.names[0];
-    if (!a.place.empty()) request.place = parsed_place(a.place);
-    if (a.names.size() > 1) request.outputs.insert(request.outputs.begin(), a.names[1]);
-    return request;
-}
-
-RunRequest write_request(const Arguments& a) {
-    const std::size_t words = a.mask.empty() ? 1 : 0, most = words + 2;
-    const std::string form = words ? "write dstylize write TEXT [IN] OUT" : "write dstylize write --mask FILE [IN] OUT";
-    if (a.names.size() < words) throw usage_error("write", "no words are given", form);
-    if (a.names.size() > most) throw usage_error(a.names[most], "is one name too many", form);
-    // The last name is the output unless there are others.
-    const std::size_t files = a.names.size() - words;
-    if (files + a.outputs.size() == 0) throw usage_error("write", "no output is named", form);
-    RunRequest request = picture_request(a);
-    if (words) request.writing = writing(a);
-    if (is_box(a.place) || (!a.place.empty() && !words)) request.place = parsed_place(a.place);
-    if (files > 0) request.outputs.insert(request.outputs.begin(), a.names.back());
-    if (files > 1) request.input = a.names[words];
-    const bool on_picture = files > 1;
-    if (a.styles.empty()) request.style = on_picture ? "lichen-letters" : "letters";
-    if (a.background.empty() && on_picture) request.background.kind = Background::Kind::input;
-    return request;
+    return words;
 }
 
 }  // namespace dstylize::app

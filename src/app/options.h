@@ -1,20 +1,18 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <memory>
+#include <set>
 #include <string>
 #include <vector>
-
-#include "pipeline/run.h"
 
 namespace dstylize::app {
 
 /// What the options say, as text where the library parses it.
 struct Arguments {
     std::vector<std::string> names;  ///< IN and OUT, or OLD, IN and OUT
-    std::vector<std::string> styles, outputs, settings, roots, patterns;
+    std::vector<std::string> styles, outputs, settings, roots, patterns, formats;
     std::string importance, importance_mode, mask, endpoints, background, place, blend, show;
-    std::string size, format, recipe_file;
+    std::string size, recipe_file;
     double scale = 0;
     int detail = 0, threads = 0, quality = 92, compression = 1;
     std::int64_t seed = 1;
@@ -23,6 +21,13 @@ struct Arguments {
     bool quiet = false, verbose = false, json = false;
     bool help = false, help_all = false, version = false;
     bool fields = false, copy = false;  ///< of `styles`
+    // Of folders.
+    std::string name = "{stem}", manifest, shard;
+    bool watch = false;
+    // Of `sbatch`.
+    int nodes = 0, shards = 0;
+    std::vector<std::string> slurm;
+    bool submit = false;
     // Of `write`.
     std::string font, align;
     float letter_spacing = 0.04f, line_spacing = 1, text_size = 0;
@@ -31,13 +36,15 @@ struct Arguments {
 /// The parser of one form of the command line, which fills in `arguments` (they must live as long).
 class Parser {
   public:
-    enum class Form { draw, write, replay, styles };
+    enum class Form { draw, write, replay, styles, sbatch, merge };
     Parser(Form form, Arguments& arguments);
 
     /// Throws Error(bad_usage).
     void parse(std::vector<std::string> words);
     /// The text of --help, or with every option that of --help-all.
     std::string help(bool all);
+    /// The options that were given, as words of a command line, without those of these names.
+    std::vector<std::string> given_options(const std::set<std::string>& but) const;
 
   private:
     CLI::Option* add(CLI::Option* option, const char* group, bool common = true);
@@ -45,6 +52,8 @@ class Parser {
     void add_hand_options();
     void add_text_options();
     void add_output_options();
+    void add_folder_options();
+    void add_slurm_options();
     void add_run_options();
     void add_help_options();
 
@@ -53,14 +62,5 @@ class Parser {
     CLI::App app_;
     std::vector<CLI::Option*> rare_;
 };
-
-/// The run that the arguments of the main form ask for. Throws Error(bad_usage).
-RunRequest draw_request(const Arguments& arguments);
-/// The run of `write`: words or a mask, on a picture or on paper. Throws Error(bad_usage).
-RunRequest write_request(const Arguments& arguments);
-/// The same for what `draw` and `replay` share: outputs and how they are written.
-void set_output_options(RunRequest& request, const Arguments& arguments);
-/// Throws Error(bad_usage) when more than one thing of the run would go to standard output.
-void check_standard_output(const RunRequest& request, const Arguments& arguments);
 
 }  // namespace dstylize::app

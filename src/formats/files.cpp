@@ -95,12 +95,16 @@ class NewFile {
         if (!name_.empty()) ::unlink(name_.c_str());
     }
 
+    /// 0 or the errno of the first step that failed: EEXIST when there is a target, which stays as it is.
+    int create(std::span<const std::byte> bytes) {
+        if (const int error = fill(bytes, 0)) return error;
+        const bool linked = name_.empty() ? link_to(target_.c_str()) : ::link(name_.c_str(), target_.c_str()) == 0;
+        return linked ? 0 : errno;
+    }
+
     /// 0 or the errno of the first step that failed. `mode` 0 is that of any new file.
     int put_in_place(std::span<const std::byte> bytes, mode_t mode) {
-        if (!file_) return error_;
-        if (const int error = write_error(file_, bytes)) return error;
-        if (mode != 0 && ::fchmod(file_.number(), mode) != 0) return errno;
-        if (::fsync(file_.number()) != 0) return errno;
+        if (const int error = fill(bytes, mode)) return error;
         if (name_.empty()) {
             if (link_to(target_.c_str())) return 0;
             if (errno != EEXIST) return errno;
@@ -113,6 +117,13 @@ class NewFile {
     }
 
   private:
+    int fill(std::span<const std::byte> bytes, mode_t mode) {
+        if (!file_) return error_;
+        if (const int error = write_error(file_, bytes)) return error;
+        if (mode != 0 && ::fchmod(file_.number(), mode) != 0) return errno;
+        return ::fsync(file_.number()) == 0 ? 0 : errno;
+    }
+
     bool link_to(const char* name) const {
         const std::string open_file = "/proc/self/fd/" + std::to_string(file_.number());
         return ::linkat(AT_FDCWD, open_file.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
@@ -140,6 +151,13 @@ class NewFile {
     std::string name_;
     int error_ = 0;
 };
+
+/// A file is in place; its name's survival of a power cut hangs on this.
+void sync_folder_of(const std::filesystem::path& target, const std::string& name) {
+    const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
+    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (directory && ::fsync(directory.number()) != 0 && errno != EINVAL) cannot_write(name, errno);
+}
 
 }  // namespace
 
@@ -197,10 +215,18 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
         NewFile file(target);
         if (const int error = file.put_in_place(bytes, exists ? status.st_mode & 07777 : 0)) cannot_write(name, error);
     }
-    // The file is in place; only its name's survival of a power cut hangs on this.
-    const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
-    const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (directory && ::fsync(directory.number()) != 0 && errno != EINVAL) cannot_write(name, errno);
+    sync_folder_of(target, name);
+}
+
+bool create_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    {
+        NewFile file(path);
+        const int error = file.create(bytes);
+        if (error == EEXIST) return false;
+        if (error) cannot_write(path.string(), error);
+    }
+    sync_folder_of(path, path.string());
+    return true;
 }
 
 }  // namespace dstylize

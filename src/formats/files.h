@@ -18,4 +18,8 @@ std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_
 /// Throws Error(cannot_write); then an existing target is as it was and nothing is left behind.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+/// The same for a file that must not exist yet: of several programs that create it at the same time, one does.
+/// Returns whether it is ours; one that exists stays as it is.
+bool create_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
 }  // namespace dstylize

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <map>
 #include <thread>
 
 #include "formats/files.h"
@@ -17,6 +16,8 @@
 #include "pipeline/deliver.h"
 #include "pipeline/folder_listing.h"
 #include "pipeline/ledger.h"
+#include "pipeline/outputs.h"
+#include "pipeline/result_names.h"
 #include "pipeline/run_recipe.h"
 #include "pipeline/style_file.h"
 
@@ -69,21 +70,40 @@ void check_folders(const BatchRequest& request) {
                     "give --format for another kind of result");
 }
 
-/// Paths of the results, in the order of the pictures.
-std::vector<fs::path> results_of(const std::vector<fs::path>& pictures, const std::string& extension) {
-    std::map<fs::path, int> times{{"report.json", 1}};  // taken by the batch's own
-    const auto plain = [&](const fs::path& picture) {
-        return picture.parent_path() / (picture.stem().string() + "." + extension);
-    };
-    for (const fs::path& picture : pictures) ++times[plain(picture)];
-    std::vector<fs::path> out;
-    for (const fs::path& picture : pictures)
-        out.push_back(times[plain(picture)] == 1 ? plain(picture) : fs::path(picture.string() + "." + extension));
-    return out;
+std::vector<std::string> formats_of(const BatchRequest& request) {
+    if (request.formats.empty()) return {"png"};
+    for (auto format = request.formats.begin(); format != request.formats.end(); ++format)
+        for (auto other = request.formats.begin(); other != format; ++other)
+            if (format_named(*other).id == format_named(*format).id)
+                throw Error(ErrorCode::bad_usage, "--format " + *format, "is given twice", "leave one of them out");
+    format_named(request.formats.front());
+    return request.formats;
+}
+
+Style style_of(const BatchRequest& request) {
+    return load_style(request.each.style, request.each.settings, request.each.user_styles);
+}
+
+std::vector<std::string> listed(const BatchRequest& request) {
+    std::vector<std::string> pictures;
+    for (const fs::path& picture : pictures_in(request.input, request.patterns, root_of(request)))
+        pictures.push_back(picture.string());
+    if (pictures.empty() && !request.only)
+        throw Error(ErrorCode::cannot_read, request.input.string(), "has no pictures",
+                    "give another folder, or patterns of names with --include");
+    return pictures;
+}
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw Error(ErrorCode::cannot_write, folder.string(), "cannot be made (" + error.message() + ")",
+                    "check the folder's permissions");
 }
 
 /// Everything that shapes a result beside the picture's bytes and its own seed.
-std::string key_of(const RunRequest& each, const std::string& style, const std::string& extension) {
+std::string way_of(const RunRequest& each, const std::string& style) {
     Recipe recipe = recipe_of(each, style);
     const auto mark = [&](const fs::path& path, std::optional<FileMark>& file) {
         if (!path.empty()) file = {path.string(), content_hash(read_file(path, each.max_memory_bytes))};
@@ -92,8 +112,8 @@ std::string key_of(const RunRequest& each, const std::string& style, const std::
     mark(each.mask.path, recipe.mask);
     mark(each.endpoints.path, recipe.endpoints);
     mark(each.background.file, recipe.background_file);
-    return hash_of(fmt::format("{}\n{} {} {} {} {} {}", recipe_toml(recipe), each.detail, extension, each.show,
-                               each.quality, each.compression, each.keep_recipe));
+    return fmt::format("{}\n{} {} {} {} {}", recipe_toml(recipe), each.detail, each.show, each.quality,
+                       each.compression, each.keep_recipe);
 }
 
 constexpr int kThumbnail_px = 480;
@@ -104,37 +124,32 @@ class Batch {
         : request_(request), observer_(observer), work_(work) {}
 
     BatchReport report() && {
-        check_folders(request_);
-        const std::string extension = request_.each.format.empty() ? "png" : request_.each.format;
-        format_named(extension);
-        Style style = load_style(request_.each.style, request_.each.settings, request_.each.user_styles);
+        const Manifest manifest = batch_pictures(request_);
+        report_.manifest_xxh128 = manifest.xxh128;
+        Style style = style_of(request_);
+        const std::vector<std::string> formats = formats_of(request_);
+        const std::string way = way_of(request_.each, style_toml(style));
+        for (const std::string& format : formats) keys_.push_back(hash_of(way + format));
         report_.style = style.name;
-        key_ = key_of(request_.each, style_toml(style), extension);
-        list(extension);
-        if (!request_.each.dry_run) make_folder(request_.output / ".dstylize");
-        ledger_.emplace(request_.output);
+        report_.all = manifest.pictures.size();
+        report_.key = hash_of(fmt::format("{}\n{} {}", way, fmt::join(formats, " "), request_.name));
+        choose(manifest.pictures, {{request_.name, style.name, request_.each.seed, formats}, manifest.pictures});
+        ledger_.emplace(request_.output, request_.shard);
+        if (!request_.each.dry_run) {
+            make_folder(ledger_->file().parent_path());
+            check_inside(ledger_->file());
+            ledger_->take_over_shards();
+        }
         draw_all();
-        if (!request_.each.dry_run) write_reports();
+        if (!request_.each.dry_run) ledger_->compact();
         return std::move(report_);
     }
 
   private:
-    void list(const std::string& extension) {
-        const std::vector<fs::path> pictures = pictures_in(request_.input, request_.patterns, root_of(request_));
-        if (pictures.empty())
-            throw Error(ErrorCode::cannot_read, request_.input.string(), "has no pictures",
-                        "give another folder, or patterns of names with --include");
-        const std::vector<fs::path> results = results_of(pictures, extension);
-        for (std::size_t k = 0; k < pictures.size(); ++k)
-            report_.pictures.push_back({pictures[k].string(), results[k].string(), State::failed, {}, {}});
-    }
-
-    static void make_folder(const fs::path& folder) {
-        std::error_code error;
-        fs::create_directories(folder, error);
-        if (error)
-            throw Error(ErrorCode::cannot_write, folder.string(), "cannot be made (" + error.message() + ")",
-                        "check the folder's permissions");
+    void choose(const std::vector<std::string>& pictures, const ResultNames& names) {
+        for (const std::size_t k : shard_entries(request_.shard.value_or(Shard()), pictures.size()))
+            if (!request_.only || request_.only->contains(pictures[k]))
+                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::failed, {}, {}});
     }
 
     /// First all, several at a time; then those that need more memory than their share, one by one.
@@ -143,7 +158,7 @@ class Batch {
         const auto threads =
             std::size_t(work_.threads > 0 ? work_.threads : std::max(1u, std::thread::hardware_concurrency()));
         const std::size_t most = std::max<std::size_t>(1, request_.each.max_memory_bytes / kMemoryOfOne);
-        const std::size_t workers = std::min({threads, most, report_.pictures.size()});
+        const std::size_t workers = std::max<std::size_t>(1, std::min({threads, most, report_.pictures.size()}));
         std::vector<std::size_t> all(report_.pictures.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
         draw(all, workers, int(std::max<std::size_t>(1, threads / workers)));
@@ -155,7 +170,9 @@ class Batch {
         std::exception_ptr fault;
         const auto draw_some = [&] {
             try {
-                PictureCodec codec(request_.codec);
+                CodecOptions share = request_.codec;
+                share.max_memory_bytes /= workers;
+                PictureCodec codec(share);
                 for (std::size_t k; (k = next++) < pictures.size();) finish(pictures[k], workers, threads, codec);
             } catch (...) {
                 const std::scoped_lock lock(mutex_);
@@ -178,7 +195,9 @@ class Batch {
             picture.state = drawn(picture, workers, threads, codec);
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) throw;
-            if (error.code() == ErrorCode::bad_usage && workers > 1) {
+            // Reading, too, can fail for want of memory.
+            const bool may_need_more = error.code() == ErrorCode::bad_usage || error.code() == ErrorCode::cannot_read;
+            if (may_need_more && workers > 1) {
                 const std::scoped_lock lock(mutex_);
                 postponed_.push_back(index);
                 return;
@@ -200,26 +219,38 @@ class Batch {
         run_request.max_memory_bytes /= workers;
         run_request.input = request_.input / picture.input;
         run_request.seed = own_seed(request_.each.seed, picture.input);
-        const fs::path target = request_.output / picture.result;
-        run_request.outputs = {target};
-        Ledger::Entry entry{content_hash(read_file(run_request.input, request_.each.max_memory_bytes)), key_, 0};
-        const Ledger::Entry* const made = ledger_->find(picture.result);
-        if (made) {
-            std::error_code missing;
-            entry.bytes = fs::file_size(target, missing);
-            if (!missing && *made == entry) return State::up_to_date;
-            run_request.force = true;  // our own, stale or damaged
-        }
+        run_request.format.clear();
+        const std::string hash = content_hash(read_file(run_request.input, request_.each.max_memory_bytes));
+        std::vector<std::size_t> stale;
+        for (std::size_t r = 0; r < picture.results.size(); ++r)
+            if (!is_up_to_date(picture.results[r], {hash, keys_[r], 0}, run_request.force)) stale.push_back(r);
+        if (stale.empty()) return State::up_to_date;
         if (request_.each.dry_run) return State::done;
-        check_inside(target);
-        make_folder(target.parent_path());
+        for (const std::size_t r : stale) {
+            const fs::path target = request_.output / picture.results[r];
+            check_inside(target);
+            make_folder(target.parent_path());
+            if (!ledger_->find(picture.results[r])) check_target(target, {}, request_.each.force);
+            run_request.outputs.push_back(target);
+        }
         run_request.thumbnail_px = kThumbnail_px;
         const RunReport made_now = run_one(run_request, threads, codec);
-        entry.bytes = made_now.outputs.front().bytes;
         write_thumbnail(thumbnail_before(picture), made_now.small_input, codec);
         write_thumbnail(thumbnail_after(picture), made_now.small_drawing, codec);
-        ledger_->add(picture.result, entry);
+        for (std::size_t k = 0; k < stale.size(); ++k)
+            ledger_->add(picture.results[stale[k]], {hash, keys_[stale[k]], made_now.outputs[k].bytes});
         return State::done;
+    }
+
+    /// What we made but is stale or damaged, we may replace: `force`.
+    bool is_up_to_date(const std::string& result, Ledger::Entry entry, bool& force) const {
+        const Ledger::Entry* const made = ledger_->find(result);
+        if (!made) return false;
+        std::error_code missing;
+        entry.bytes = fs::file_size(request_.output / result, missing);
+        if (!missing && *made == entry) return true;
+        force = true;
+        return false;
     }
 
     /// No link leads a result out of the output folder.
@@ -268,19 +299,10 @@ class Batch {
         if (observer_) observer_({finished_, report_.pictures.size(), writing_ > 0, picture});
     }
 
-    void write_reports() const {
-        ledger_->compact();
-        const auto write = [&](const char* name, const std::string& text) {
-            write_file_atomically(request_.output / name, std::as_bytes(std::span(text)));
-        };
-        write("report.json", batch_report_json(report_));
-        write("index.html", contact_sheet_html(report_, request_.input, request_.output));
-    }
-
     const BatchRequest& request_;
     const std::function<void(const BatchProgress&)>& observer_;
     const Work& work_;
-    std::string key_;
+    std::vector<std::string> keys_;  ///< of each of a picture's results
     BatchReport report_;
     std::optional<Ledger> ledger_;
     std::vector<std::size_t> postponed_;
@@ -294,6 +316,20 @@ class Batch {
 std::size_t BatchReport::count(State state) const {
     return std::size_t(std::count_if(pictures.begin(), pictures.end(),
                                      [state](const BatchPicture& picture) { return picture.state == state; }));
+}
+
+Manifest batch_pictures(const BatchRequest& request) {
+    check_folders(request);
+    const std::vector<std::string> formats = formats_of(request);
+    const auto list = [&] {
+        std::vector<std::string> pictures = listed(request);
+        ResultNames({request.name, style_of(request).name, request.each.seed, formats}, {});  // throws
+        return pictures;
+    };
+    std::error_code ignored;
+    if (request.manifest.empty() || (request.each.dry_run && !fs::exists(request.manifest, ignored)))
+        return {list(), {}};
+    return frozen_manifest(request.manifest, list);
 }
 
 BatchReport run_batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer,

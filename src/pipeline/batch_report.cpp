@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "formats/files.h"
 #include "pipeline/version.h"
 
 namespace dstylize {
@@ -68,9 +69,14 @@ std::string figure(const BatchPicture& picture, const fs::path& to_input) {
             "<figure class=\"failed\"><figcaption><a href=\"{}\">{}</a><br><b>{}</b>: {}</figcaption>"
             "</figure>\n",
             original, escaped(picture.input), escaped(picture.problem), escaped(picture.remedy));
+    std::string caption = escaped(picture.input);
+    if (picture.results.size() > 1)
+        for (const std::string& result : picture.results)
+            caption +=
+                fmt::format(" <a href=\"{}\">{}</a>", url(result), escaped(fs::path(result).extension().string()));
     return "<figure><div>" + image(original, url(thumbnail_before(picture)), "before") +
-           image(url(picture.result), url(thumbnail_after(picture)), "after") +
-           fmt::format("</div><figcaption>{}</figcaption></figure>\n", escaped(picture.input));
+           image(url(picture.results.front()), url(thumbnail_after(picture)), "after") +
+           fmt::format("</div><figcaption>{}</figcaption></figure>\n", caption);
 }
 
 ordered_json json_of(const BatchReport& report) {
@@ -81,7 +87,7 @@ ordered_json json_of(const BatchReport& report) {
         tree[std::string(state_name(state))] = report.count(state);
     tree["pictures"] = ordered_json::array();
     for (const BatchPicture& picture : report.pictures) {
-        ordered_json row{{"input", picture.input}, {"result", picture.result}, {"state", state_name(picture.state)}};
+        ordered_json row{{"input", picture.input}, {"results", picture.results}, {"state", state_name(picture.state)}};
         if (picture.state == State::failed) {
             row["problem"] = picture.problem;
             row["remedy"] = picture.remedy;
@@ -99,10 +105,10 @@ std::string json_text(const ordered_json& tree) {
 }  // namespace
 
 fs::path thumbnail_before(const BatchPicture& picture) {
-    return fs::path(".dstylize/thumbnails") / (picture.result + ".before.jpg");
+    return fs::path(".dstylize/thumbnails") / (picture.results.front() + ".before.jpg");
 }
 fs::path thumbnail_after(const BatchPicture& picture) {
-    return fs::path(".dstylize/thumbnails") / (picture.result + ".after.jpg");
+    return fs::path(".dstylize/thumbnails") / (picture.results.front() + ".after.jpg");
 }
 
 std::string batch_report_json(const BatchReport& report) { return json_text(json_of(report)); }
@@ -123,6 +129,14 @@ std::string contact_sheet_html(const BatchReport& report, const fs::path& input,
         for (const BatchPicture& picture : report.pictures)
             if ((picture.state == State::failed) == failed) out += figure(picture, to_input);
     return out + "</section>\n";
+}
+
+void write_batch_reports(const BatchReport& report, const fs::path& input, const fs::path& output) {
+    const auto write = [&](const char* name, const std::string& text) {
+        write_file_atomically(output / name, std::as_bytes(std::span(text)));
+    };
+    write("report.json", batch_report_json(report));
+    write("index.html", contact_sheet_html(report, input, output));
 }
 
 }  // namespace dstylize

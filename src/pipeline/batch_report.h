@@ -20,4 +20,8 @@ std::string batch_report_json(std::span<const BatchReport> reports);
 std::string contact_sheet_html(const BatchReport& report, const std::filesystem::path& input,
                                const std::filesystem::path& output);
 
+/// Both as report.json and index.html in the output folder. Throws Error(cannot_write).
+void write_batch_reports(const BatchReport& report, const std::filesystem::path& input,
+                         const std::filesystem::path& output);
+
 }  // namespace dstylize

@@ -21,16 +21,31 @@ std::string line(const std::string& result, const Ledger::Entry& entry) {
 
 }  // namespace
 
-Ledger::Ledger(const fs::path& output_folder) : file_(output_folder / ".dstylize" / "ledger.jsonl") {
+Ledger::Ledger(const fs::path& output_folder, std::optional<Shard> shard)
+    : file_(output_folder / ".dstylize" / "ledger.jsonl") {
+    if (shard) {
+        read(file_, common_);
+        file_ = shard_ledger(output_folder, *shard);
+        read(file_, entries_);
+        return;
+    }
+    read(file_, entries_);
+    shards_ = output_folder / ".dstylize" / "shards";
     std::error_code ignored;
-    if (!fs::exists(file_, ignored)) return;
-    std::ifstream file(file_);
-    if (!file) throw Error(ErrorCode::cannot_read, file_.string(), "cannot be read", "check its permissions");
+    for (fs::recursive_directory_iterator at(shards_, ignored), end; at != end; at.increment(ignored))
+        if (at->path().extension() == ".jsonl") read(at->path(), entries_);
+}
+
+void Ledger::read(const fs::path& path, Entries& entries) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) return;
+    std::ifstream file(path);
+    if (!file) throw Error(ErrorCode::cannot_read, path.string(), "cannot be read", "check its permissions");
     for (std::string text; std::getline(file, text);) {
         const json tree = json::parse(text, nullptr, false);
         if (!tree.is_object()) continue;
         try {
-            entries_[tree.at("result")] = {tree.at("input"), tree.at("key"), tree.at("bytes")};
+            entries[tree.at("result")] = {tree.at("input"), tree.at("key"), tree.at("bytes")};
         } catch (const json::exception&) {
             continue;
         }
@@ -39,8 +54,9 @@ Ledger::Ledger(const fs::path& output_folder) : file_(output_folder / ".dstylize
 
 const Ledger::Entry* Ledger::find(const std::string& result) const {
     const std::scoped_lock lock(mutex_);
-    const auto at = entries_.find(result);
-    return at == entries_.end() ? nullptr : &at->second;
+    for (const Entries* entries : {&entries_, &common_})
+        if (const auto at = entries->find(result); at != entries->end()) return &at->second;
+    return nullptr;
 }
 
 void Ledger::add(const std::string& result, const Entry& entry) {
@@ -57,6 +73,16 @@ void Ledger::compact() const {
     std::string text;
     for (const auto& [result, entry] : entries_) text += line(result, entry);
     write_file_atomically(file_, std::as_bytes(std::span(text)));
+}
+
+void Ledger::take_over_shards() const {
+    std::error_code error;
+    if (shards_.empty() || !fs::exists(shards_, error)) return;
+    compact();
+    fs::remove_all(shards_, error);
+    if (error)
+        throw Error(ErrorCode::cannot_write, shards_.string(), "cannot be removed (" + error.message() + ")",
+                    "check its permissions");
 }
 
 }  // namespace dstylize

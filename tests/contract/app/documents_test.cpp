@@ -25,7 +25,8 @@ class DocumentsTest : public AppTest {
   protected:
     std::set<std::string> options() const {
         return matches(run({"--help-all"}).out + run({"write", "--help"}).out + run({"replay", "--help"}).out +
-                           run({"styles", "--help"}).out,
+                           run({"styles", "--help"}).out + run({"sbatch", "--help"}).out +
+                           run({"merge-reports", "--help"}).out,
                        "[\\s,](--?[a-z][a-z-]*)(?=[, ])");
     }
 };
@@ -51,7 +52,7 @@ TEST_F(DocumentsTest, TheManualPageDescribesEveryOption) {
 TEST_F(DocumentsTest, BashCompletesEveryOption) {
     const std::string text = repository_file("completions/dstylize.bash");
     std::set<std::string> found;
-    for (const std::string& list : matches(text, "(?:output|draw|draw_words|words)=['\"]([^'\"]*)['\"]"))
+    for (const std::string& list : matches(text, "(?:output|draw|draw_words|draw_slurm|words)=['\"]([^'\"]*)['\"]"))
         found.merge(matches(" " + list + " ", "\\s(--?[a-z][a-z-]*)(?=\\s)"));
     EXPECT_EQ(found, options());
 }

@@ -3,44 +3,15 @@
 
 #include <chrono>
 #include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "contract/app/app_fixture.h"
+#include "contract/app/folder_fixture.h"
 
 namespace dstylize::test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-class FolderTest : public AppTest {
-  protected:
-    FolderTest() {
-        fs::create_directories(folder_ / "photos/sea/deep");
-        write_picture(folder_ / "photos/a.png", scene(kSize));
-        write_picture(folder_ / "photos/sea/b.png", scene({64, 80}));
-        write_picture(folder_ / "photos/sea/deep/c d&.png", flat({40, 40}, {90, 120, 200, 255}));
-        std::ofstream(folder_ / "photos/notes.txt") << "no picture";
-    }
-    /// State of every picture of the last run.
-    std::map<std::string, std::string> states(const std::string& out = "out") const {
-        std::map<std::string, std::string> states;
-        const json tree = json::parse(std::ifstream(folder_ / out / "report.json"));
-        for (const json& row : tree["pictures"]) states[row["input"]] = row["state"];
-        return states;
-    }
-    Outcome draw_all(Words more = {}) const {
-        Words words{"photos", "out"};
-        words.insert(words.end(), more.begin(), more.end());
-        return draw(words);
-    }
-    static std::string text(const fs::path& path) {
-        std::ifstream file(path);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-};
 
 TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
     const Outcome outcome = draw_all();
@@ -52,7 +23,7 @@ TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
     EXPECT_FALSE(fs::exists(folder_ / "out/notes.png"));
     EXPECT_EQ(states(), (std::map<std::string, std::string>{
                             {"a.png", "done"}, {"sea/b.png", "done"}, {"sea/deep/c d&.png", "done"}}));
-    const std::string page = text(folder_ / "out/index.html");
+    const std::string page = file_bytes(folder_ / "out/index.html");
     EXPECT_NE(page.find("href=\"../photos/sea/deep/c%20d%26.png\""), std::string::npos);
     EXPECT_NE(page.find("href=\"sea/deep/c%20d%26.png\""), std::string::npos);
     for (const char* when : {"before", "after"}) {
@@ -102,7 +73,7 @@ TEST_F(FolderTest, GoesOnPastBadPicturesAndNamesThem) {
     EXPECT_EQ(states()["sea/bad.jpg"], "failed");
     EXPECT_EQ(states()["sea/deep/c d&.png"], "done");
     EXPECT_FALSE(fs::exists(folder_ / "out/sea/bad.png"));
-    const std::string page = text(folder_ / "out/index.html");
+    const std::string page = file_bytes(folder_ / "out/index.html");
     EXPECT_LT(page.find("sea/bad.jpg"), page.find("href=\"a.png\"")) << "what failed comes first";
 }
 
@@ -125,6 +96,37 @@ TEST_F(FolderTest, TakesPatternsAndFormats) {
     EXPECT_EQ(states(), (std::map<std::string, std::string>{
                             {"a.png", "done"}, {"sea/a.tif", "done"}, {"sea/deep/c d&.png", "done"}}));
     EXPECT_TRUE(fs::exists(folder_ / "out/sea/a.json"));
+}
+
+TEST_F(FolderTest, WritesEveryPictureInSeveralFormatsFromOneDrawing) {
+    expect_done(draw_all());
+    const auto drawn = file_bytes(folder_ / "out/a.png");
+    const auto drawn_at = fs::last_write_time(folder_ / "out/a.png");
+    for (const char* state : {"done", "up to date"}) {
+        expect_done(draw_all({"--format", "png", "--format", "svg"}));
+        for (const auto& [picture, was] : states()) EXPECT_EQ(was, state) << picture;
+    }
+    EXPECT_EQ(fs::last_write_time(folder_ / "out/a.png"), drawn_at) << "it was up to date";
+    EXPECT_TRUE(file_bytes(folder_ / "out/a.svg").starts_with("<?xml"));
+    EXPECT_NE(file_bytes(folder_ / "out/index.html").find("href=\"a.svg\""), std::string::npos);
+    expect_done(draw({"photos", "both", "--format", "svg", "--format", "png"}));
+    EXPECT_TRUE(file_bytes(folder_ / "both/a.png") == drawn) << "what else is written changes nothing";
+    write_file(folder_ / "out/a.json", std::string_view("somebody's"));
+    EXPECT_EQ(draw_all({"--format", "png", "--format", "json", "--seed", "2"}).exit_code, 5);
+    EXPECT_EQ(file_bytes(folder_ / "out/a.json"), "somebody's");
+    expect_error(draw_all({"--format", "jpg", "--format", "jpeg"}), 2, {"--format jpeg", "twice"});
+    expect_error(draw({"in.png", "x", "--format", "png", "--format", "svg"}), 2, {"--format svg", "-o"});
+}
+
+TEST_F(FolderTest, NamesTheDrawingsAsATemplateSays) {
+    write_picture(folder_ / "photos/a.tif", scene({30, 30}));
+    expect_done(draw_all({"--name", "{style}/{stem}-{seed}", "--seed", "7"}));
+    for (const char* name : {"ink/a.png-7.png", "ink/a.tif-7.png", "sea/ink/b-7.png", "sea/deep/ink/c d&-7.png"})
+        EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+    expect_error(draw_all({"--name", "{style}"}), 2, {"--name {style}", "{stem}"});
+    expect_error(draw_all({"--name", "{stem}{x}"}), 2, {"{x}", "no field"});
+    expect_error(draw_all({"--name", "../{stem}"}), 2, {"leads out"});
+    expect_error(draw({"in.png", "x.png", "--name", "{stem}-1"}), 2, {"in.png", "--name"});
 }
 
 TEST_F(FolderTest, GivesEachOfSeveralStylesAFolder) {
@@ -159,16 +161,6 @@ TEST_F(FolderTest, LeavesItsOwnResultsAndWhatIsHiddenOutOfTheInput) {
     fs::create_directory_symlink("..", folder_ / "photos/sea/loop");
     for (int times = 0; times < 2; ++times) expect_done(draw({"photos", "photos/drawn"}));
     EXPECT_EQ(states("photos/drawn").size(), 3u);
-}
-
-/// Names and contents of all results.
-std::map<std::string, std::string> results(const fs::path& out) {
-    std::map<std::string, std::string> files;
-    if (!fs::exists(out)) return files;
-    for (const auto& entry : fs::recursive_directory_iterator(out))
-        if (entry.is_regular_file() && entry.path().extension() == ".png")
-            files[fs::relative(entry.path(), out)] = file_bytes(entry.path());
-    return files;
 }
 
 TEST_F(FolderTest, KilledAtAnyMomentEndsAsIfItHadNotBeen) {

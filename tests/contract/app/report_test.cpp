@@ -89,7 +89,8 @@ TEST_F(ReportTest, HelpFitsAScreen) {
     expect_done(help);
     EXPECT_LE(std::count(help.out.begin(), help.out.end(), '\n'), 27);
     for (const Words& words :
-         {Words{"--help"}, Words{"--help-all"}, Words{"replay", "--help"}, Words{"styles", "--help"}}) {
+         {Words{"--help"}, Words{"--help-all"}, Words{"replay", "--help"}, Words{"styles", "--help"},
+          Words{"sbatch", "--help"}, Words{"merge-reports", "--help"}}) {
         std::istringstream lines(run(words).out);
         for (std::string line; std::getline(lines, line);) {
             const auto columns = std::count_if(line.begin(), line.end(), [](unsigned char c) { return c >> 6 != 2; });
