@@ -18,6 +18,12 @@ std::string text(const ordered_json& tree) {
     return tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
+const char* kept_from(DecoderConfinement held) {
+    if (held.system_calls && held.files) return "network, processes, all files";
+    if (held.system_calls) return "network, processes, new files";
+    return held.files ? "all files" : "nothing but memory over its limit: this kernel confines no process";
+}
+
 }  // namespace
 
 std::string json_report(const RunReport& report, const Progress& progress) {
@@ -64,6 +70,7 @@ std::string verbose_report(const RunReport& report, const Progress& progress) {
                     report.picture.y, report.style, report.seed, report.lattice.x, report.lattice.y);
     for (const auto& [step, seconds] : progress.steps()) out += fmt::format("  {:<32} {:7.3f} s\n", step, seconds);
     out += fmt::format("  {:<32} {:7.3f} s\n", "all", progress.seconds());
+    if (report.decoder) out += fmt::format("  {:<32} {}\n", "the decoder was kept from", kept_from(*report.decoder));
     for (const auto& [stage, count] : report.endpoints) out += fmt::format("  {:<32} {:7} endpoints\n", stage, count);
     if (report.unreached > 0) out += fmt::format("  {:<32} {:7} endpoints\n", "not reached", report.unreached);
     if (report.nodes > 0)

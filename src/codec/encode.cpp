@@ -1,8 +1,13 @@
 #include "codec/encode.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,15 +66,29 @@ ImageSpec spec_for(FileFormat format, const Drawing& drawing, const ipc::EncodeS
     return spec;
 }
 
+struct Close {
+    void operator()(std::FILE* stream) const { std::fclose(stream); }
+};
+
+/// The memory as a stream: the confined worker can open no file for writing, not even this one by its name.
+std::unique_ptr<std::FILE, Close> opened(const ipc::Descriptor& memory) {
+    std::unique_ptr<std::FILE, Close> stream(::fdopen(::dup(memory.number()), "w+b"));
+    if (!stream) throw cannot_encode(std::strerror(errno));
+    return stream;
+}
+
 /// The file as OpenImageIO writes it.
 ipc::Descriptor oiio_encoded(FileFormat format, const Drawing& drawing, const ipc::EncodeSettings& settings) {
     const bool opaque =
         format == FileFormat::jpeg || std::ranges::all_of(drawing.pixels, [](Rgba8 p) { return p.a == 255; });
     ipc::Descriptor file = ipc::shared_memory(0);
+    const auto stream = opened(file);
+    OIIO::Filesystem::IOFile proxy(stream.get(), OIIO::Filesystem::IOProxy::Write);
     const auto output = ImageOutput::create(reader_name(format));
     if (!output) throw cannot_encode("OpenImageIO has no writer for it");
+    output->set_ioproxy(&proxy);
     const ImageSpec spec = spec_for(format, drawing, settings, opaque ? 3 : 4);
-    if (!output->open("/proc/self/fd/" + std::to_string(file.number()), spec)) throw cannot_encode(output->geterror());
+    if (!output->open("drawing", spec)) throw cannot_encode(output->geterror());
     constexpr int kRows = 64;
     const auto width = std::size_t(drawing.extent.x);
     for (int row = 0; row < drawing.extent.y; row += kRows) {
@@ -80,6 +99,7 @@ ipc::Descriptor oiio_encoded(FileFormat format, const Drawing& drawing, const ip
             throw cannot_encode(output->geterror());
     }
     if (!output->close() || output->has_error()) throw cannot_encode(output->geterror());
+    if (std::fflush(stream.get()) != 0) throw cannot_encode(std::strerror(errno));
     return file;
 }
 

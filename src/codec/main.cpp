@@ -5,6 +5,7 @@
 // searched first, with those that it needs; so the ones with most symbols are opened before the module, which
 // nearly halves the time to load. Where one is missing nothing is lost but that time.
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cstdint>
@@ -24,6 +25,7 @@ int main(int argument_count, char** arguments) {
         std::fputs("dstylize-codec: is started by dstylize to decode and encode pictures\n", stderr);
         return 2;
     }
+    close_range(4, ~0u, 0);  // what the caller left open is no business of hostile files; 3 is the channel
     for (const char* library : std::initializer_list<const char*>{DSTYLIZE_OPENED_FIRST})
         dlopen(library, RTLD_LAZY | RTLD_LOCAL);
     std::error_code ignored;  // then the module is not found

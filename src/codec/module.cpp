@@ -5,13 +5,10 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cstdint>
-#include <cstdio>
 #include <new>
 #include <string>
 
@@ -22,33 +19,11 @@
 #include "ipc/channel.h"
 #include "ipc/codec_protocol.h"
 #include "ipc/shared_memory.h"
+#include "sandbox/confine.h"
 
 namespace {
 
 using namespace dstylize;
-
-/// Address space in use, in bytes.
-std::uint64_t address_space_bytes() {
-    unsigned long long pages = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-        if (std::fscanf(file, "%llu", &pages) != 1) pages = 0;
-        std::fclose(file);
-    }
-    return pages * std::uint64_t(sysconf(_SC_PAGESIZE));
-}
-
-/// Limits this process: no core dumps, and `max_memory_bytes` more address space than it has loaded.
-void limit_resources(std::uint64_t max_memory_bytes) {
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    prctl(PR_SET_DUMPABLE, 0);
-    // Threads reserve address space for stacks and heaps that they hardly use.
-    constexpr std::uint64_t kThreads = 512u << 20;
-    const std::uint64_t fixed = address_space_bytes() + kThreads;
-    if (max_memory_bytes > RLIM_INFINITY - fixed) return;
-    const rlimit space{fixed + max_memory_bytes, fixed + max_memory_bytes};
-    setrlimit(RLIMIT_AS, &space);
-}
 
 ipc::Descriptor decode(const ipc::CodecRequest& request, const ipc::Descriptor& file, std::uint64_t max_memory_bytes,
                        ipc::CodecAnswer& answer) {
@@ -109,7 +84,8 @@ Trust answer_request(const ipc::CodecRequest& request, const ipc::Descriptor& pa
 }
 
 /// The worker: answers requests until the channel closes or it has met damage. `busy` tells the others.
-codec::WorkerEnd serve(const ipc::Descriptor& channel, std::uint64_t max_memory_bytes, std::atomic<bool>& busy) {
+codec::WorkerEnd serve(const ipc::Descriptor& channel, std::uint64_t max_memory_bytes, std::atomic<bool>& busy,
+                       sandbox::Confinement held) {
     OIIO::attribute("threads", 2);
     OIIO::attribute("exr_threads", 2);
     while (true) {
@@ -120,6 +96,8 @@ codec::WorkerEnd serve(const ipc::Descriptor& channel, std::uint64_t max_memory_
             return codec::WorkerEnd::channel_closed;
         busy = true;
         const Trust trust = answer_request(request, payload, max_memory_bytes, answer, result);
+        answer.calls_filtered = held.system_calls;
+        answer.files_closed = held.files;
         busy = false;
         if (!ipc::send_struct(channel, answer, result.number())) return codec::WorkerEnd::channel_closed;
         if (trust == Trust::lost) return codec::WorkerEnd::retired;
@@ -130,8 +108,10 @@ codec::WorkerEnd serve(const ipc::Descriptor& channel, std::uint64_t max_memory_
 
 int dstylize_codec(std::uint64_t max_memory_bytes) {
     const ipc::Descriptor channel(ipc::kCodecChannel);
-    limit_resources(max_memory_bytes);
+    sandbox::limit_resources(max_memory_bytes);
     if (!ipc::send_struct(channel, ipc::CodecGreeting{})) return 1;
-    codec::supervise(channel, [&](std::atomic<bool>& busy) { return serve(channel, max_memory_bytes, busy); });
+    codec::supervise(channel, [&](std::atomic<bool>& busy, sandbox::Confinement held) {
+        return serve(channel, max_memory_bytes, busy, held);
+    });
     _exit(0);  // without the libraries' farewells, which take a tenth of a second
 }

@@ -53,7 +53,8 @@ void report_crash(const ipc::Descriptor& channel, int status) {
 
 }  // namespace
 
-void supervise(const ipc::Descriptor& channel, const std::function<WorkerEnd(std::atomic<bool>& busy)>& work) {
+void supervise(const ipc::Descriptor& channel,
+               const std::function<WorkerEnd(std::atomic<bool>& busy, sandbox::Confinement held)>& work) {
     std::atomic<bool>& busy = shared_flag();
     while (true) {
         busy = false;
@@ -61,9 +62,10 @@ void supervise(const ipc::Descriptor& channel, const std::function<WorkerEnd(std
         if (child < 0) return;
         if (child == 0) {
             prctl(PR_SET_PDEATHSIG, SIGKILL);
+            const sandbox::Confinement held = sandbox::confine();  // before there are other threads
             end_with(channel);
             // No destructors: after a hostile file they could crash or hang.
-            _exit(int(work(busy)));
+            _exit(int(work(busy, held)));
         }
         const int status = waited_for(child);
         const bool ended = WIFEXITED(status);

@@ -128,7 +128,8 @@ DecodedPicture PictureCodec::decode(std::span<const std::byte> file_bytes, const
         answer.payload_bytes > options_.max_memory_bytes || answer.text_bytes > kMaxTextBytes ||
         ipc::size_bytes(payload) != answer.payload_bytes + answer.text_bytes)
         implausible(process_, kCode, name);
-    DecodedPicture decoded{Picture(extent), answer.has_alpha != 0, {}};
+    DecodedPicture decoded{
+        Picture(extent), answer.has_alpha != 0, {}, {answer.calls_filtered != 0, answer.files_closed != 0}};
     ipc::drain(payload, bytes_of(decoded.picture));
     std::string text(answer.text_bytes, '\0');
     ipc::read_all(payload, std::as_writable_bytes(std::span(text)), answer.payload_bytes);

@@ -25,11 +25,18 @@ struct PictureMetadata {
     std::string find(const std::string& key) const;
 };
 
+/// What the kernel held the process to that decoded; limits on memory it had in any case.
+struct DecoderConfinement {
+    bool system_calls = false;  ///< no network, no new file or process
+    bool files = false;         ///< no file of others either
+};
+
 /// A picture file's content: upright, 8-bit sRGB, straight alpha.
 struct DecodedPicture {
     Picture picture;
     bool has_alpha = false;  ///< the file states transparency, whether or not any pixel uses it
     PictureMetadata metadata;
+    DecoderConfinement confinement;
 };
 
 struct CodecOptions {

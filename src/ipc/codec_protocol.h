@@ -13,7 +13,7 @@ namespace dstylize::ipc {
 
 /// The channel's number in the codec, and how it is started: dstylize-codec MAX_MEMORY_BYTES.
 inline constexpr int kCodecChannel = 3;
-inline constexpr std::uint32_t kCodecProtocol = 1;
+inline constexpr std::uint32_t kCodecProtocol = 2;
 
 struct CodecGreeting {
     std::uint32_t protocol = kCodecProtocol;
@@ -52,6 +52,8 @@ struct CodecAnswer {
     std::uint64_t text_bytes = 0;
     std::int32_t width = 0, height = 0;
     std::uint32_t has_alpha = 0;
+    /// What the kernel holds the worker to (sandbox/confine.h), as it says itself before it meets a file.
+    std::uint32_t calls_filtered = 0, files_closed = 0;
     double dpi = 0;
     /// Zero-terminated.
     char problem[400] = {}, remedy[200] = {};

@@ -131,6 +131,7 @@ class Run {
             ReadFile read = file(request_.input);
             recipe_.input = {request_.input.filename().string(), read.mark.xxh128};
             input_ = codec_.decode(read.bytes, name_of(request_.input));
+            report_.decoder = input_.confinement;
         }
         if (request_.writing) controls_.mask = letter_mask(*request_.writing, input_.picture.extent());
         lattice_ =

@@ -73,7 +73,8 @@ struct RunReport {
     std::size_t unreached = 0, nodes = 0, strokes = 0;
     std::vector<OutputReport> outputs;
     std::string recipe;
-    Picture small_input, small_drawing;  ///< as request.thumbnail_px asks for them
+    std::optional<DecoderConfinement> decoder;  ///< of the input, if there is one
+    Picture small_input, small_drawing;         ///< as request.thumbnail_px asks for them
     bool dry_run = false;
 };
 
