@@ -97,4 +97,11 @@ int run_program(std::vector<std::string> words) {
 }  // namespace
 }  // namespace dstylize::app
 
-int main(int argc, char** argv) { return dstylize::app::run_program({argv + 1, argv + argc}); }
+int main(int argc, char** argv) {
+    try {
+        return dstylize::app::run_program({argv + 1, argv + argc});
+    } catch (const std::bad_alloc&) {  // none even for the words or for the report of another error
+        std::fputs("dstylize: out of memory: close other programs, or raise the limit on memory\n", stderr);
+        return dstylize::app::kFailed;
+    }
+}

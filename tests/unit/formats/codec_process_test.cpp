@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "ipc/codec_protocol.h"
 #include "unit/formats/codec_fixture.h"
 
 namespace dstylize::test {
@@ -97,7 +98,7 @@ class FakeCodec {
     std::string path_;
 };
 
-constexpr const char* kGreeting = "printf '\\001\\000\\000\\000' >&3";
+constexpr const char* kGreeting = "printf '\\002\\000\\000\\000' >&3";
 
 TEST(CodecProcess, AMissingProgramIsNamed) {
     CodecOptions options;
@@ -134,8 +135,9 @@ TEST(CodecProcess, AStuckDecoderIsEndedAfterTheTimeout) {
 }
 
 TEST(CodecProcess, NoAnswerIsBelievedUnchecked) {
-    // Too short, too long, and of the right length (of a CodecAnswer) but without what it promises.
-    for (const char* answer : {"printf done >&3", "head -c 100000 /dev/zero >&3", "head -c 656 /dev/zero >&3"}) {
+    // Too short, too long, and of the right length but without what it promises.
+    const std::string right = "head -c " + std::to_string(sizeof(ipc::CodecAnswer)) + " /dev/zero >&3";
+    for (const std::string& answer : {"printf done >&3"s, "head -c 100000 /dev/zero >&3"s, right}) {
         const FakeCodec fake(kGreeting + "; dd bs=4096 count=1 <&3 >/dev/null 2>&1; "s + answer + "; sleep 100");
         PictureCodec codec(fake.options());
         const Error error = error_of([&] { codec.decode(small_picture(), "picture"); });
