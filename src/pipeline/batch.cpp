@@ -266,6 +266,7 @@ class Batch {
 
     void write_thumbnail(const fs::path& relative, const Picture& small, PictureCodec& codec) const {
         const fs::path path = request_.output / relative;
+        check_inside(path);
         make_folder(path.parent_path());
         DeliveryOptions options;
         options.quality = 85;

@@ -1,5 +1,5 @@
 // Preloaded into dstylize: one call that changes files, or one allocation, fails or is the last. By the environment:
-//   FAULT_AT=N         the Nth such call since main(), from 1; 0 for none
+//   FAULT_AT=N         the Nth such call within main(), from 1; 0 for none
 //   FAULT=28           its errno; 0 ends the process by SIGKILL instead, in the middle of a write
 //   FAULT_CALLS=files  or `memory`: what is counted
 //   FAULT_LOG=FILE     gets a line for every call that is counted
@@ -82,7 +82,9 @@ int (*own_main)(int, char**, char**) = nullptr;
 
 int main_with_faults(int count, char** words, char** environment) {
     begin();
-    return own_main(count, words, environment);
+    const int code = own_main(count, words, environment);
+    counted = Calls::none;
+    return code;
 }
 
 }  // namespace

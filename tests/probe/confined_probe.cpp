@@ -1,9 +1,13 @@
 // confined_probe ATTEMPT [free]: tries one thing that a decoder has no business with, confined as the decoder is, or
 // free. Its exit code is 0 when that worked, else the errno; 250 where the kernel confines nothing.
+// confined_probe --old-kernel PROGRAM [WORD...] runs a program as on a kernel that knows neither seccomp nor Landlock.
 #include <dirent.h>
 #include <fcntl.h>
+#include <linux/seccomp.h>
+#include <seccomp.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -110,9 +114,22 @@ const std::map<std::string, std::function<int()>> kAttempts{
     {"thread", thread_started},
 };
 
+int run_as_on_an_old_kernel(char** command) {
+    scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+    const bool good = filter && seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(seccomp), 0) == 0 &&
+                      seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(landlock_create_ruleset), 0) == 0 &&
+                      seccomp_rule_add(filter, SCMP_ACT_ERRNO(EINVAL), SCMP_SYS(prctl), 1,
+                                       SCMP_A0(SCMP_CMP_EQ, PR_SET_SECCOMP)) == 0 &&
+                      seccomp_load(filter) == 0;
+    if (!good) return 250;
+    execve(command[0], command, environ);
+    return errno;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
+    if (count > 2 && std::strcmp(arguments[1], "--old-kernel") == 0) return run_as_on_an_old_kernel(arguments + 2);
     const auto attempt = kAttempts.find(count > 1 ? arguments[1] : "");
     if (attempt == kAttempts.end()) {
         std::fputs("confined_probe: no such attempt\n", stderr);

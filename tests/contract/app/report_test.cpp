@@ -103,5 +103,18 @@ TEST_F(ReportTest, AControlCharacterInANameStaysOneLine) {
     expect_error(draw({"no\nsuch\tpicture.png", "out.png"}), 3, {"no?such?picture.png"});
 }
 
+TEST_F(ReportTest, SaysWhatTheDecoderWasKeptFrom) {
+    EXPECT_NE(draw({"in.png", "out.png", "--verbose"}).err.find("the decoder was kept from"), std::string::npos);
+}
+
+TEST_F(ReportTest, AKernelThatConfinesNothingIsNamedAndNoHindrance) {
+    Process process({DSTYLIZE_PROBE, "--old-kernel", DSTYLIZE_PROGRAM, "in.png", "out.png", "--style", "ink",
+                     "--detail", "64", "--verbose"},
+                    folder_.path());
+    EXPECT_EQ(process.wait(), 0) << process.err();
+    EXPECT_NE(process.err().find("this kernel confines no process"), std::string::npos) << process.err();
+    EXPECT_EQ(read_picture(folder_ / "out.png").picture.extent(), kSize);
+}
+
 }  // namespace
 }  // namespace dstylize::test

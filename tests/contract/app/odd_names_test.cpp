@@ -1,0 +1,76 @@
+// Names are only names, and nothing is written outside of the folder of the drawings. (docs/security.md)
+#include <filesystem>
+
+#include "contract/app/app_fixture.h"
+
+namespace dstylize::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OddNames : public AppTest {
+  protected:
+    OddNames() { fs::create_directories(folder_ / "photos"); }
+    /// Names of all files below `folder` but those of the ledger and the thumbnails.
+    std::set<std::string> results() const {
+        std::set<std::string> names;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out"))
+            if (entry.path().extension() == ".png") names.insert(fs::relative(entry.path(), folder_ / "out").string());
+        return names;
+    }
+};
+
+TEST_F(OddNames, StayInTheFolderOfTheDrawings) {
+    const std::set<std::string> names{"a..png",
+
+                                      "-o.png",
+                                      "--force.png",
+                                      "a;touch hacked;.png",
+                                      "$(touch hacked).png",
+                                      "`touch hacked`.png",
+                                      "a|touch hacked.png",
+                                      "a\nb.png",
+                                      "%s%n.png",
+                                      "\xff\xfe.png",
+                                      "*.png",
+                                      "~.png",
+                                      "\\..\\up.png"};
+    for (const std::string& name : names) write_picture(folder_ / ("photos/" + name), scene({20, 20}));
+    Words words{"photos", "out"};
+    const auto before = folder_.names();
+    const Outcome outcome = draw(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(results(), names);
+    auto after = before;
+    after.insert("out");
+    EXPECT_EQ(folder_.names(), after);
+}
+
+TEST_F(OddNames, NoLinkTakesReportsOrThumbnailsElsewhere) {
+    write_picture(folder_ / "photos/a.png", scene({20, 20}));
+    for (const std::string link :
+         {"report.json", "index.html", ".dstylize/ledger.jsonl", ".dstylize/thumbnails/a.png.before.jpg"}) {
+        SCOPED_TRACE(link);
+        fs::remove_all(folder_ / "out");
+        write_file(folder_ / "precious", "precious");
+        fs::create_directories((folder_ / ("out/" + link)).parent_path());
+        fs::create_symlink(folder_ / "precious", folder_ / ("out/" + link));
+        const Outcome outcome = draw({"photos", "out"});
+        EXPECT_TRUE(outcome.exit_code == 4 || outcome.exit_code == 5) << outcome.exit_code;
+        EXPECT_NE(outcome.err.find("a link leads out"), std::string::npos) << outcome.err;
+        EXPECT_EQ(file_bytes(folder_ / "precious"), "precious");
+    }
+    for (const std::string link : {".dstylize", ".dstylize/thumbnails"}) {
+        SCOPED_TRACE(link);
+        fs::remove_all(folder_ / "out");
+        fs::create_directories((folder_ / ("out/" + link)).parent_path());
+        fs::create_directories(folder_ / "elsewhere");
+        fs::create_directory_symlink(folder_ / "elsewhere", folder_ / ("out/" + link));
+        const Outcome outcome = draw({"photos", "out"});
+        EXPECT_TRUE(outcome.exit_code == 4 || outcome.exit_code == 5) << outcome.exit_code;
+        EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+    }
+}
+
+}  // namespace
+}  // namespace dstylize::test
