@@ -26,7 +26,8 @@ class CorpusTest : public AppTest {
 };
 
 TEST_F(CorpusTest, EveryWholePictureIsReadAtItsSize) {
-    for (const CorpusFile& file : sound_) EXPECT_EQ(codec().decode(file.bytes, file.name).picture.extent(), file.extent);
+    for (const CorpusFile& file : sound_)
+        EXPECT_EQ(codec().decode(file.bytes, file.name).picture.extent(), file.extent);
 }
 
 TEST_F(CorpusTest, DamageIsRefusedInOneLineOrRead) {
