@@ -14,7 +14,6 @@ namespace dstylize {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-constexpr int kMostPixels = 65535;
 
 struct PaperSheet {
     std::string_view name;

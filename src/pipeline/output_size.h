@@ -6,6 +6,9 @@
 
 namespace dstylize {
 
+/// Of the long side of a drawing.
+inline constexpr int kMostPixels = 65535;
+
 /// How large an output shall be, as a user says it. The drawing itself never depends on it.
 struct OutputSize {
     enum class Kind {

@@ -146,7 +146,17 @@ class Run {
             ground_ = picture({request_.background.file, request_.background_xxh128}, recipe_.background_file);
         if (request_.background.kind == Background::Kind::input) ground_ = input_.picture;
         if (request_.place) box_ = placed_box(*request_.place, ground_.extent());
-        frame_ = output_frame(request_.size, request_.place ? ground_.extent() : input_.picture.extent());
+        frame_ = framed(request_.place ? ground_.extent() : input_.picture.extent());
+    }
+
+    /// The output for a picture of this size. One that is too large by itself is the picture's fault.
+    OutputFrame framed(Extent whole) const {
+        const bool in_file = request_.place && request_.background.kind == Background::Kind::file;
+        if (request_.size.kind == OutputSize::Kind::as_input && whole.long_side() > kMostPixels)
+            throw Error(ErrorCode::cannot_read, name_of(in_file ? request_.background.file : request_.input),
+                        fmt::format("is {} pixels long, and a drawing at most {}", whole.long_side(), kMostPixels),
+                        "ask for a smaller --size");
+        return output_frame(request_.size, whole);
     }
 
     /// The size of the paper where there is no input picture.

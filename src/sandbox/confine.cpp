@@ -47,6 +47,8 @@ constexpr int kFree[] = {
     SCMP_SYS(lseek), SCMP_SYS(_llseek), SCMP_SYS(close), SCMP_SYS(dup), SCMP_SYS(fcntl), SCMP_SYS(fcntl64),
     SCMP_SYS(fstat), SCMP_SYS(fstat64), SCMP_SYS(fsync), SCMP_SYS(sendmsg), SCMP_SYS(recvmsg), SCMP_SYS(poll),
     SCMP_SYS(ppoll),
+    // a way from this process to itself, by which UndefinedBehaviorSanitizer asks what memory is readable
+    SCMP_SYS(pipe), SCMP_SYS(pipe2),
     // looking at names
     SCMP_SYS(stat), SCMP_SYS(lstat), SCMP_SYS(newfstatat), SCMP_SYS(statx), SCMP_SYS(access), SCMP_SYS(faccessat),
     SCMP_SYS(readlink), SCMP_SYS(readlinkat), SCMP_SYS(getcwd),

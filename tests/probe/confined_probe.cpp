@@ -100,11 +100,6 @@ const std::map<std::string, std::function<int()>> kAttempts{
     {"signal_parent", [] { return error_of(kill(getppid(), SIGCONT)); }},
     {"limit", limit_raised},
     {"code", code_made},
-    {"pipe",
-     [] {
-         int ends[2];
-         return error_of(pipe(ends));
-     }},
     {"much_memory", [] { return memory_of(kLimit_bytes + (std::uint64_t(1) << 30)); }},
     {"much_shared_memory", [] { return shared_memory_of(kLimit_bytes + 1); }},
     // What decoding needs.
@@ -112,6 +107,11 @@ const std::map<std::string, std::function<int()>> kAttempts{
     {"some_shared_memory", [] { return shared_memory_of(kLimit_bytes); }},
     {"own_memory", opened_again},
     {"thread", thread_started},
+    {"pipe",
+     [] {
+         int ends[2];
+         return error_of(pipe(ends));
+     }},
 };
 
 int run_as_on_an_old_kernel(char** command) {

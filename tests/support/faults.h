@@ -7,13 +7,6 @@
 
 namespace dstylize::test {
 
-/// Sanitizers want to be loaded before all else, and have their own allocations.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kFaultsPossible = false;
-#else
-inline constexpr bool kFaultsPossible = true;
-#endif
-
 /// What tests/fault/fault_shim.cpp is to do to a run.
 struct Fault {
     const char* calls = "files";  ///< or "memory"

@@ -81,6 +81,12 @@ TEST_F(BadPictureTest, AColumnAndARowAreDrawn) {
     expect_drawn("row.png", {4000, 1}, false);
 }
 
+TEST_F(BadPictureTest, LongerThanADrawingIsRefusedUnlessASizeIsAsked) {
+    write_picture(folder_ / "line.png", scene({70000, 1}));
+    expect_refused("line.png", {"70000 pixels long", "--size"});
+    expect_done(draw({"line.png", "out.png", "--size", "600"}));
+}
+
 TEST_F(BadPictureTest, OneColourIsDrawn) {
     for (const std::uint8_t grey : {0, 128, 255}) {
         write_picture(folder_ / "flat.png", flat({80, 60}, {grey, grey, grey, 255}));

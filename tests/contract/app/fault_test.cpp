@@ -8,6 +8,7 @@
 
 #include "contract/app/app_fixture.h"
 #include "support/faults.h"
+#include "support/sanitized.h"
 
 namespace dstylize::test {
 namespace {
@@ -33,7 +34,7 @@ Files files_in(const fs::path& folder) {
 class FaultTest : public AppTest {
   protected:
     void SetUp() override {
-        if (!kFaultsPossible) GTEST_SKIP() << "not with sanitizers";
+        if (kSanitized) GTEST_SKIP() << "not with sanitizers";
     }
     Outcome faulty(Fault fault, const Words& words) const { return dstylize_with(fault, words, folder_.path()); }
     long calls(const char* kind, const Words& words) const { return calls_of(kind, words, folder_.path()); }

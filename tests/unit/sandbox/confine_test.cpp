@@ -49,13 +49,13 @@ INSTANTIATE_TEST_SUITE_P(Refused, Probe,
                                            std::tuple{"symbolic_link", EPERM}, std::tuple{"process", EPERM},
                                            std::tuple{"program", EPERM}, std::tuple{"shell", EPERM},
                                            std::tuple{"signal_parent", EPERM}, std::tuple{"limit", EPERM},
-                                           std::tuple{"code", EPERM}, std::tuple{"pipe", EPERM},
-                                           std::tuple{"much_memory", ENOMEM}, std::tuple{"much_shared_memory", EFBIG}),
+                                           std::tuple{"code", EPERM}, std::tuple{"much_memory", ENOMEM},
+                                           std::tuple{"much_shared_memory", EFBIG}),
                          [](const auto& row) { return std::string(std::get<0>(row.param)); });
 
 INSTANTIATE_TEST_SUITE_P(Granted, Probe,
                          ::testing::Values(std::tuple{"some_memory", 0}, std::tuple{"some_shared_memory", 0},
-                                           std::tuple{"own_memory", 0}, std::tuple{"thread", 0}),
+                                           std::tuple{"own_memory", 0}, std::tuple{"thread", 0}, std::tuple{"pipe", 0}),
                          [](const auto& row) { return std::string(std::get<0>(row.param)); });
 
 std::vector<pid_t> children_of(pid_t parent) {
