@@ -12,7 +12,7 @@
 namespace dstylize {
 namespace {
 
-constexpr auto unit = Noise::unit_of;
+float unit(std::uint32_t bits) { return Noise::unit_of(bits); }
 
 /// A colour as its luma and what red and blue have beyond it.
 struct Tint {
