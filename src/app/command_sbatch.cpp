@@ -32,12 +32,13 @@ void check(const Arguments& arguments) {
 /// Makes the manifest, and says how many pictures it has. One of our own is made anew: what earlier shards have drawn
 /// goes into the common ledger, so that no other shard draws it again.
 std::size_t frozen_pictures(const std::vector<BatchRequest>& batches, bool own_manifest) {
-    const BatchRequest& first = batches.front();
+    std::size_t listed = 0;
     for (BatchRequest batch : batches) {
         batch.each.dry_run = true;
-        batch_pictures(batch);
+        listed = batch_pictures(batch).pictures.size();
     }
-    if (first.each.dry_run) return batch_pictures(first).pictures.size();
+    const BatchRequest& first = batches.front();
+    if (first.each.dry_run) return listed;
     std::error_code ignored;
     if (own_manifest) {
         fs::create_directories(first.manifest.parent_path(), ignored);

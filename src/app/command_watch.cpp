@@ -45,10 +45,11 @@ class Watch {
 
     void draw(std::set<std::filesystem::path> pictures, const Arguments& arguments, Interrupt& interrupt) {
         request_.only = std::move(pictures);
-        BatchReport now = run_folder(request_, arguments, interrupt, [&](const BatchPicture& picture) {
-                              if (picture.state == BatchPicture::State::done && !arguments.quiet)
-                                  print(fmt::format("drawn        {}\n", picture.results.front()));
-                          }).first;
+        const auto tell = [&](const BatchPicture& picture) {
+            if (picture.state == BatchPicture::State::done && !arguments.quiet)
+                print(fmt::format("drawn        {}\n", picture.results.front()));
+        };
+        BatchReport now = run_folder(request_, arguments, interrupt, tell).first;
         for (BatchPicture& picture : now.pictures) all_.insert_or_assign(picture.input, std::move(picture));
         if (all_.empty()) return;
         now.pictures.clear();

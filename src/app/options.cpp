@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/error.h"
 #include "pipeline/style_file.h"
 #include "pipeline/writing.h"
 
@@ -73,37 +72,47 @@ constexpr const char* kFurtherForms =
     "dstylize sbatch IN OUT          draw a folder on many machines, with Slurm\n"
     "dstylize merge-reports OUT      make one report of those of all shards\n";
 
+}  // namespace
+
 Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy) {
     return Error(ErrorCode::bad_usage, what, problem, remedy);
 }
-
-}  // namespace
 
 Parser::Parser(Form form, Arguments& arguments) : form_(form), arguments_(arguments) {
     app_.formatter(std::make_shared<HelpFormatter>(usage(form)));
     app_.set_help_flag();
     app_.allow_extras();
     app_.add_option("names", arguments_.names);
-    Arguments& a = arguments_;
-    if (form == Form::write) add_text_options();
-    if (form == Form::sbatch) add_slurm_options();
-    if (form == Form::draw || form == Form::write || form == Form::sbatch) {
+    if (form == Form::styles)
+        add_list_options();
+    else if (form == Form::merge)
+        add_merge_options();
+    else
+        add_drawing_options();
+    add_help_options();
+}
+
+void Parser::add_drawing_options() {
+    if (form_ == Form::write) add_text_options();
+    if (form_ == Form::sbatch) add_slurm_options();
+    if (form_ != Form::replay) {
         add_style_options();
         add_hand_options();
     }
-    if (form != Form::styles && form != Form::merge) add_output_options();
-    if (form == Form::draw || form == Form::sbatch) add_folder_options();
-    if (form != Form::styles && form != Form::merge) add_run_options();
-    if (form == Form::merge) {
-        add(app_.add_flag("--json", a.json, "the report as JSON on standard output"), kRun);
-        add(app_.add_flag("-q,--quiet", a.quiet, "no summary"), kRun);
-    }
-    if (form == Form::styles) {
-        add(app_.add_flag("--fields", a.fields, "list the fields that styles and --show name"), kStyle);
-        add(app_.add_flag("--copy", a.copy, "copy the style NAME to FILE, to change it there"), kStyle);
-        add(app_.add_flag("-f,--force", a.force, "replace FILE"), kStyle);
-    }
-    add_help_options();
+    add_output_options();
+    if (form_ == Form::draw || form_ == Form::sbatch) add_folder_options();
+    add_run_options();
+}
+
+void Parser::add_list_options() {
+    add(app_.add_flag("--fields", arguments_.fields, "list the fields that styles and --show name"), kStyle);
+    add(app_.add_flag("--copy", arguments_.copy, "copy the style NAME to FILE, to change it there"), kStyle);
+    add(app_.add_flag("-f,--force", arguments_.force, "replace FILE"), kStyle);
+}
+
+void Parser::add_merge_options() {
+    add(app_.add_flag("--json", arguments_.json, "the report as JSON on standard output"), kRun);
+    add(app_.add_flag("-q,--quiet", arguments_.quiet, "no summary"), kRun);
 }
 
 CLI::Option* Parser::add(CLI::Option* option, const char* group, bool common) {

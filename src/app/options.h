@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+
 namespace dstylize::app {
 
 /// What the options say, as text where the library parses it.
@@ -48,6 +50,9 @@ class Parser {
 
   private:
     CLI::Option* add(CLI::Option* option, const char* group, bool common = true);
+    void add_drawing_options();
+    void add_list_options();
+    void add_merge_options();
     void add_style_options();
     void add_hand_options();
     void add_text_options();
@@ -62,5 +67,8 @@ class Parser {
     CLI::App app_;
     std::vector<CLI::Option*> rare_;
 };
+
+/// That the words of the command line ask for something that cannot be.
+Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy);
 
 }  // namespace dstylize::app

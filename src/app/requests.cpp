@@ -4,17 +4,9 @@
 #include <algorithm>
 
 #include "app/commands.h"
-#include "core/error.h"
 #include "pipeline/control_text.h"
 
 namespace dstylize::app {
-namespace {
-
-Error usage_error(const std::string& what, const std::string& problem, const std::string& remedy) {
-    return Error(ErrorCode::bad_usage, what, problem, remedy);
-}
-
-}  // namespace
 
 void set_output_options(RunRequest& request, const Arguments& a) {
     for (const std::string& output : a.outputs) request.outputs.emplace_back(output);

@@ -102,8 +102,8 @@ void make_folder(const fs::path& folder) {
                     "check the folder's permissions");
 }
 
-/// Everything that shapes a result beside the picture's bytes and its own seed.
-std::string way_of(const RunRequest& each, const std::string& style) {
+/// Everything that shapes a result beside the picture's bytes, its own seed and its format, as text.
+std::string settings_of(const RunRequest& each, const std::string& style) {
     Recipe recipe = recipe_of(each, style);
     const auto mark = [&](const fs::path& path, std::optional<FileMark>& file) {
         if (!path.empty()) file = {path.string(), content_hash(read_file(path, each.max_memory_bytes))};
@@ -128,16 +128,16 @@ class Batch {
         report_.manifest_xxh128 = manifest.xxh128;
         Style style = style_of(request_);
         const std::vector<std::string> formats = formats_of(request_);
-        const std::string way = way_of(request_.each, style_toml(style));
-        for (const std::string& format : formats) keys_.push_back(hash_of(way + format));
+        const std::string settings = settings_of(request_.each, style_toml(style));
+        for (const std::string& format : formats) keys_.push_back(hash_of(settings + format));
         report_.style = style.name;
         report_.all = manifest.pictures.size();
-        report_.key = hash_of(fmt::format("{}\n{} {}", way, fmt::join(formats, " "), request_.name));
+        report_.key = hash_of(fmt::format("{}\n{} {}", settings, fmt::join(formats, " "), request_.name));
         choose(manifest.pictures, {{request_.name, style.name, request_.each.seed, formats}, manifest.pictures});
         ledger_.emplace(request_.output, request_.shard);
         if (!request_.each.dry_run) {
             make_folder(ledger_->file().parent_path());
-            check_inside(ledger_->file());
+            check_inside(request_.output, ledger_->file());
             ledger_->take_over_shards();
         }
         draw_all();
@@ -228,7 +228,7 @@ class Batch {
         if (request_.each.dry_run) return State::done;
         for (const std::size_t r : stale) {
             const fs::path target = request_.output / picture.results[r];
-            check_inside(target);
+            check_inside(request_.output, target);
             make_folder(target.parent_path());
             if (!ledger_->find(picture.results[r])) check_target(target, {}, request_.each.force);
             run_request.outputs.push_back(target);
@@ -253,20 +253,9 @@ class Batch {
         return false;
     }
 
-    /// No link leads a result out of the output folder.
-    void check_inside(const fs::path& target) const {
-        std::error_code error, ignored;
-        const fs::path root = fs::canonical(request_.output, error),
-                       folder = fs::weakly_canonical(target.parent_path(), error);
-        const bool inside = std::mismatch(root.begin(), root.end(), folder.begin(), folder.end()).first == root.end();
-        if (error || !inside || fs::is_symlink(target, ignored))
-            throw Error(ErrorCode::cannot_write, target.string(), "a link leads out of the folder of the drawings",
-                        "remove the link");
-    }
-
     void write_thumbnail(const fs::path& relative, const Picture& small, PictureCodec& codec) const {
         const fs::path path = request_.output / relative;
-        check_inside(path);
+        check_inside(request_.output, path);
         make_folder(path.parent_path());
         DeliveryOptions options;
         options.quality = 85;
@@ -324,7 +313,7 @@ Manifest batch_pictures(const BatchRequest& request) {
     const std::vector<std::string> formats = formats_of(request);
     const auto list = [&] {
         std::vector<std::string> pictures = listed(request);
-        ResultNames({request.name, style_of(request).name, request.each.seed, formats}, {});  // throws
+        check_naming({request.name, style_of(request).name, request.each.seed, formats});
         return pictures;
     };
     std::error_code ignored;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/error.h"
 #include "formats/files.h"
+#include "pipeline/outputs.h"
 #include "pipeline/version.h"
 
 namespace dstylize {
@@ -134,10 +134,7 @@ std::string contact_sheet_html(const BatchReport& report, const fs::path& input,
 
 void write_batch_reports(const BatchReport& report, const fs::path& input, const fs::path& output) {
     const auto write = [&](const char* name, const std::string& text) {
-        std::error_code ignored;
-        if (fs::is_symlink(output / name, ignored))
-            throw Error(ErrorCode::cannot_write, (output / name).string(),
-                        "a link leads out of the folder of the drawings", "remove the link");
+        check_inside(output, output / name);
         write_file_atomically(output / name, std::as_bytes(std::span(text)));
     };
     write("report.json", batch_report_json(report));

@@ -47,7 +47,8 @@ Grid<float> drawn_ink(std::vector<VariableStroke> strokes_lattice, Extent lattic
         layer.items.push_back(std::move(stroke));
     }
     list.layers.push_back(std::move(layer));
-    const Picture black_on_white = raster(list, {cells, 2}, work);
+    constexpr int kSamplesPerCell = 2;  // with more bench/look sees no better drawing
+    const Picture black_on_white = raster(list, {cells, kSamplesPerCell}, work);
     Grid<float> out(cells);
     std::transform(black_on_white.begin(), black_on_white.end(), out.begin(),
                    [](Rgba8 p) { return 1 - float(p.r) / 255; });

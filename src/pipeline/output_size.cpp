@@ -60,9 +60,9 @@ std::string sheet_names() {
 }
 
 int pixels(double side) {
-    if (!(side < kMostPixels + 0.5))
+    if (!(side < kLongestDrawing_px + 0.5))
         throw Error(ErrorCode::bad_usage, "", fmt::format("the output would be {:.0f} pixels long", side),
-                    fmt::format("ask for a --size, --scale or dpi that gives at most {}", kMostPixels));
+                    fmt::format("ask for a --size, --scale or dpi that gives at most {}", kLongestDrawing_px));
     return std::max(1, int(std::lround(side)));
 }
 

@@ -6,8 +6,8 @@
 
 namespace dstylize {
 
-/// Of the long side of a drawing.
-inline constexpr int kMostPixels = 65535;
+/// The long side of the largest drawing.
+inline constexpr int kLongestDrawing_px = 65535;
 
 /// How large an output shall be, as a user says it. The drawing itself never depends on it.
 struct OutputSize {

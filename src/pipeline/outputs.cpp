@@ -62,6 +62,15 @@ bool is_ours(const fs::path& path) {
                std::string::npos;
 }
 
+void check_inside(const fs::path& folder, const fs::path& target) {
+    std::error_code error, ignored;
+    const fs::path root = fs::canonical(folder, error), parent = fs::weakly_canonical(target.parent_path(), error);
+    const bool inside = std::mismatch(root.begin(), root.end(), parent.begin(), parent.end()).first == root.end();
+    if (error || !inside || fs::is_symlink(target, ignored))
+        throw Error(ErrorCode::cannot_write, target.string(), "a link leads out of the folder of the drawings",
+                    "remove the link");
+}
+
 void check_target(const fs::path& path, std::span<const fs::path> inputs, bool force) {
     if (path == "-") return;
     const std::string name = path.string();

@@ -26,6 +26,9 @@ std::vector<PlannedOutput> planned_outputs(const std::vector<std::filesystem::pa
 /// The same checks for a file that has no format of ours.
 void check_target(const std::filesystem::path& path, std::span<const std::filesystem::path> inputs, bool force);
 
+/// Throws Error(cannot_write) when a link would lead a file, which is to lie in the folder, out of it.
+void check_inside(const std::filesystem::path& folder, const std::filesystem::path& target);
+
 /// Writes the source of a style to a file, to start one's own from. Throws as check_target does.
 void copy_style_file(const std::string& name_or_file, const std::filesystem::path& user_folder,
                      const std::filesystem::path& target, bool force);

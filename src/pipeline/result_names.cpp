@@ -35,13 +35,17 @@ std::string filled(const ResultNaming& naming, const std::string& stem) {
     return out;
 }
 
-void check(const ResultNaming& naming) {
+}  // namespace
+
+void check_naming(const ResultNaming& naming) {
     if (naming.name.find("{stem}") == std::string::npos)
         refuse(naming, "gives all pictures one name", "let {stem} be in it");
     const fs::path name = filled(naming, "stem");
     if (name.is_absolute() || !name.has_filename() || std::find(name.begin(), name.end(), "..") != name.end())
         refuse(naming, "leads out of the folder of the drawings", "write a name, or a path from there");
 }
+
+namespace {
 
 /// The result's path but for its extension.
 std::string named(const ResultNaming& naming, const fs::path& picture, const fs::path& stem) {
@@ -52,7 +56,7 @@ std::string named(const ResultNaming& naming, const fs::path& picture, const fs:
 
 ResultNames::ResultNames(ResultNaming naming, const std::vector<std::string>& all_pictures)
     : naming_(std::move(naming)) {
-    check(naming_);
+    check_naming(naming_);
     std::vector<std::string> names;
     names.reserve(all_pictures.size() + 1);
     const auto& extensions = naming_.extensions;

@@ -15,12 +15,15 @@ struct ResultNaming {
     std::vector<std::string> extensions;  ///< of every picture's results, in this order
 };
 
+/// Throws Error(bad_usage) for a name that has no {stem}, an unknown field, or a way out of the folder.
+void check_naming(const ResultNaming& naming);
+
 /// The names of results, as paths from the output folder, of pictures that are given as paths from the input folder.
 /// Pictures whose results would share a name, with each other or with the batch's own report, keep their extensions
 /// inside it: a.jpg and a.png become a.jpg.png and a.png.png.
 class ResultNames {
   public:
-    /// Throws Error(bad_usage) for a name that has no {stem}, an unknown field, or a way out of the folder.
+    /// Throws as check_naming does.
     ResultNames(ResultNaming naming, const std::vector<std::string>& all_pictures);
 
     /// One of the pictures' results.

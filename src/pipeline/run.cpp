@@ -152,10 +152,11 @@ class Run {
     /// The output for a picture of this size. One that is too large by itself is the picture's fault.
     OutputFrame framed(Extent whole) const {
         const bool in_file = request_.place && request_.background.kind == Background::Kind::file;
-        if (request_.size.kind == OutputSize::Kind::as_input && whole.long_side() > kMostPixels)
-            throw Error(ErrorCode::cannot_read, name_of(in_file ? request_.background.file : request_.input),
-                        fmt::format("is {} pixels long, and a drawing at most {}", whole.long_side(), kMostPixels),
-                        "ask for a smaller --size");
+        if (request_.size.kind == OutputSize::Kind::as_input && whole.long_side() > kLongestDrawing_px)
+            throw Error(
+                ErrorCode::cannot_read, name_of(in_file ? request_.background.file : request_.input),
+                fmt::format("is {} pixels long, and a drawing at most {}", whole.long_side(), kLongestDrawing_px),
+                "ask for a smaller --size");
         return output_frame(request_.size, whole);
     }
 
