@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/requests.h"
 #include "pipeline/ledger.h"
+#include "pipeline/outputs.h"
 #include "pipeline/slurm_script.h"
 
 namespace dstylize::app {
@@ -27,6 +28,14 @@ void check(const Arguments& arguments) {
         if (!option.starts_with("--") || option.find_first_not_of(kPlain) != std::string::npos)
             throw Error(ErrorCode::bad_usage, "--slurm " + option, "is no plain option of sbatch",
                         "write --slurm=--NAME=VALUE, without spaces and quotes");
+}
+
+/// No link leads what is written, removed or taken over out of the folder of the drawings.
+void check_links(const fs::path& output) {
+    std::error_code ignored;
+    if (!fs::exists(output, ignored)) return;
+    for (const char* own : {".dstylize", ".dstylize/manifest", ".dstylize/shards", ".dstylize/slurm"})
+        check_inside(output, output / own);
 }
 
 /// Makes the manifest, and says how many pictures it has. One of our own is made anew: what earlier shards have drawn
@@ -66,6 +75,8 @@ void write_slurm_jobs(const Arguments& arguments, const Parser& parser) {
     Arguments with_manifest = arguments;
     if (arguments.manifest.empty()) with_manifest.manifest = own / "manifest";
     const std::vector<BatchRequest> batches = folder_requests(with_manifest);
+    check_links(output);
+    for (const BatchRequest& batch : batches) check_links(batch.output);
 
     SlurmRun run;
     run.nodes = arguments.nodes;

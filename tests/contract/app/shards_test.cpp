@@ -99,10 +99,13 @@ TEST_F(ShardsTest, AreTakenOverFromNoOtherFolder) {
     fs::create_directories(folder_ / "elsewhere/shards/2");
     fs::create_directories(folder_ / "out");
     fs::create_directory_symlink("../elsewhere", folder_ / "out/.dstylize");
-    for (const Outcome& outcome : {draw_all(), draw_shard("1/2")})
+    write_file(folder_ / "elsewhere/manifest", std::string_view("precious"));
+    for (const Outcome& outcome : {draw_all(), draw_shard("1/2"), draw({"sbatch", "photos", "out", "--nodes", "2"})})
         expect_error(outcome, 4, {"out/.dstylize", "a link leads out"});
     EXPECT_TRUE(fs::exists(folder_ / "elsewhere/shards/2"));
     EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere/shards/2"));
+    EXPECT_EQ(file_bytes(folder_ / "elsewhere/manifest"), "precious");
+    EXPECT_FALSE(fs::exists(folder_ / "elsewhere/slurm"));
 }
 
 TEST_F(ShardsTest, RefuseWrongUsageAndManifestsThatAreNotWhole) {
