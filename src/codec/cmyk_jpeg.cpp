@@ -28,7 +28,8 @@ void stay_silent(j_common_ptr) {}
 
 class CmykReader {
   public:
-    explicit CmykReader(Bytes file) {
+    /// Delegates, so that what libjpeg has taken is given back when this throws.
+    explicit CmykReader(Bytes file) : CmykReader() {
         info_.err = jpeg_std_error(&errors_.base);
         errors_.base.error_exit = jump_out;
         errors_.base.output_message = stay_silent;
@@ -44,6 +45,7 @@ class CmykReader {
     std::string icc_profile() {
         JOCTET* bytes = nullptr;
         unsigned size = 0;
+        if (setjmp(errors_.failed)) throw_damaged();
         if (!jpeg_read_icc_profile(&info_, &bytes, &size)) return "";
         std::string profile(reinterpret_cast<const char*>(bytes), size);
         std::free(bytes);
@@ -61,6 +63,7 @@ class CmykReader {
     }
 
   private:
+    CmykReader() = default;
     bool opened(Bytes file) {
         if (setjmp(errors_.failed)) return false;
         jpeg_create_decompress(&info_);

@@ -56,6 +56,7 @@ void add_written(std::vector<CorpusFile>& files) {
     tiff.photometric = 5;
     tiff.samples = 4;
     files.push_back({"inks.tif", tiff_file(tiff, ramp(pixels * 4)), kSmall});
+    files.push_back({"inks.jpg", cmyk_jpeg_file({{0, 80, 160, 240}, {255, 7, 77, 0}, {9, 9, 9, 9}}, true), {24, 8}});
     files.push_back({"masks.bmp", bmp_file(w, h, {0xff0000, 0xff00, 0xff, 0xff000000u}, ramp(pixels * 4)), kSmall});
     std::vector<int> indices(pixels);
     for (std::size_t n = 0; n < pixels; ++n) indices[n] = int(n % 4);

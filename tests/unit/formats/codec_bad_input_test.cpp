@@ -79,6 +79,12 @@ TEST_F(CodecBadInput, TruncatedFilesAreDamagedUnlessThatIsAllowed) {
     }
 }
 
+TEST_F(CodecBadInput, CutJpegsOfInksAreDamagedAtEveryPlace) {
+    const FileBytes whole = cmyk_jpeg_file({{0, 80, 160, 240}, {255, 7, 77, 0}, {9, 9, 9, 9}, {3, 200, 1, 90}}, true);
+    for (std::size_t size = 30; size + 2 < whole.size(); size += 13)
+        refusal(FileBytes(whole.begin(), whole.begin() + std::ptrdiff_t(size)));
+}
+
 TEST_F(CodecBadInput, BrokenChecksumsAreDamage) {
     FileBytes png = photo("png");
     png[png.size() / 2] ^= std::byte{0x40};

@@ -55,6 +55,21 @@ TEST_F(CodecSamples, PortableAnymaps) {
               (Pixels{{255, srgb(0.25), 0}}));
 }
 
+TEST_F(CodecSamples, JpegOfInks) {
+    for (const bool adobe : {false, true}) {
+        const auto stored = [&](int ink) { return adobe ? 255 - ink : ink; };
+        const FileBytes file = cmyk_jpeg_file({{stored(0), stored(255), stored(0), stored(0)},
+                                               {stored(55), stored(0), stored(255), stored(0)},
+                                               {stored(0), stored(0), stored(0), stored(204)}},
+                                              adobe);
+        const Picture picture = decoded(file).picture;
+        ASSERT_EQ(picture.extent(), (Extent{24, 8}));
+        EXPECT_EQ(picture(0, 7), (Rgba8{255, 0, 255})) << adobe;
+        EXPECT_EQ(picture(9, 4), (Rgba8{200, 255, 0})) << adobe;
+        EXPECT_EQ(picture(23, 0), (Rgba8{51, 51, 51})) << adobe;
+    }
+}
+
 TEST_F(CodecSamples, BitmapsByTheirMasks) {
     const std::string row = "\x01\x02\x03\x00\x04\x05\x06\x00"s;  // blue, green, red, nothing
     const DecodedPicture plain = decoded(bmp_file(2, 1, {}, row));

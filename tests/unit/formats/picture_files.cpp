@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -38,6 +40,31 @@ FileBytes with_inserted(const FileBytes& file, std::size_t at, std::string_view 
 std::string jpeg_segment(int marker, std::string_view data) {
     return std::string("\xff") + char(marker) + be(data.size() + 2, 2) + std::string(data);
 }
+
+/// The coded part of a JPEG: the highest bit first, a zero behind every byte of ones, ones at the end.
+class BitsOfJpeg {
+  public:
+    void put(unsigned value, int count) {
+        while (count-- > 0) put_bit(value >> count & 1);
+    }
+    std::string bytes() {
+        while (filled_ != 0) put_bit(1);
+        return bytes_;
+    }
+
+  private:
+    void put_bit(unsigned bit) {
+        byte_ = byte_ << 1 | bit;
+        if (++filled_ < 8) return;
+        bytes_ += char(byte_);
+        if (byte_ == 0xff) bytes_ += '\0';
+        byte_ = 0;
+        filled_ = 0;
+    }
+    std::string bytes_;
+    unsigned byte_ = 0;
+    int filled_ = 0;
+};
 
 }  // namespace
 
@@ -107,6 +134,32 @@ FileBytes jpeg_with_profile(const FileBytes& jpeg, std::string_view icc_profile)
     if (const auto old = text.find("ICC_PROFILE"); old != std::string::npos) text[old] = 'X';
     const std::string prefix("ICC_PROFILE\0\1\1", 14);
     return with_inserted(file_of(text), 2, jpeg_segment(0xe2, prefix + std::string(icc_profile)));
+}
+
+FileBytes cmyk_jpeg_file(const std::vector<std::array<int, 4>>& blocks, bool adobe) {
+    std::string frame = be(8, 1) + be(8, 2) + be(8 * blocks.size(), 2) + be(4, 1), scan = be(4, 1);
+    for (int ink = 1; ink <= 4; ++ink) {
+        frame += be(std::uint64_t(ink), 1) + be(0x11, 1) + be(0, 1);
+        scan += be(std::uint64_t(ink), 1) + be(0, 1);
+    }
+    // Twelve codes of four bits for how many bits the mean of a block has; one of one bit: nothing but the mean.
+    std::string means = std::string("\0\0\0\0\x0c", 5) + std::string(12, '\0'), nothing("\x10\1", 2);
+    for (int bits = 0; bits < 12; ++bits) means += char(bits);
+    nothing += std::string(16, '\0');
+    BitsOfJpeg bits;
+    std::array<int, 4> last{128, 128, 128, 128};
+    for (const std::array<int, 4>& block : blocks)
+        for (std::size_t ink = 0; ink < 4; ++ink) {
+            const int rise = block[ink] - last[ink], size = int(std::bit_width(unsigned(std::abs(rise))));
+            bits.put(unsigned(size), 4);
+            bits.put(unsigned(rise < 0 ? rise + (1 << size) - 1 : rise), size);
+            bits.put(0, 1);
+            last[ink] = block[ink];
+        }
+    return file_of("\xff\xd8" + (adobe ? jpeg_segment(0xee, std::string("Adobe\0\x64\0\0\0\0\0", 12)) : "") +
+                   jpeg_segment(0xdb, '\0' + std::string(64, '\x08')) + jpeg_segment(0xc0, frame) +
+                   jpeg_segment(0xc4, means) + jpeg_segment(0xc4, nothing) +
+                   jpeg_segment(0xda, scan + std::string("\0\x3f\0", 3)) + bits.bytes() + "\xff\xd9");
 }
 
 FileBytes webp_with_chunk(const FileBytes& webp, std::string_view name, std::string_view content) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -41,6 +42,9 @@ FileBytes png_with_chunks(const FileBytes& png, std::string_view chunks);
 // --- JPEG, WebP: blocks put into files that the codec encoded ---
 FileBytes jpeg_with_exif(const FileBytes& jpeg, std::string_view exif);
 FileBytes jpeg_with_profile(const FileBytes& jpeg, std::string_view icc_profile);
+/// A JPEG of four inks, flat blocks of 8 x 8 pixels in a row; each sample comes back exactly. With Adobe's marker,
+/// samples mean 255 - ink.
+FileBytes cmyk_jpeg_file(const std::vector<std::array<int, 4>>& blocks, bool adobe);
 /// The chunk takes the place of the one of its name, which must be there.
 FileBytes webp_with_chunk(const FileBytes& webp, std::string_view name, std::string_view content);
 
