@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr int kShardsPerNode = 4;
 constexpr int kMostShards = 1000;  // of an array that Slurm takes as it comes (MaxArraySize)
 
-void check(const Arguments& arguments) {
+void check_sbatch(const Arguments& arguments) {
     if (arguments.names.size() != 2)
         throw Error(ErrorCode::bad_usage, "sbatch", "wants a folder of pictures and one for the drawings",
                     "write dstylize sbatch IN OUT --nodes N");
@@ -70,7 +70,7 @@ std::string submitted(std::vector<std::string> options, const fs::path& script) 
 }  // namespace
 
 void write_slurm_jobs(const Arguments& arguments, const Parser& parser) {
-    check(arguments);
+    check_sbatch(arguments);
     const fs::path output = arguments.names[1], own = output / ".dstylize";
     Arguments with_manifest = arguments;
     if (arguments.manifest.empty()) with_manifest.manifest = own / "manifest";

@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kPause{1};
 constexpr int kShareOfLooking = 10;  // looks take at most this part of the time
 
-void check(const Arguments& arguments) {
+void check_watch(const Arguments& arguments) {
     const auto refuse = [](bool given, const char* option) {
         if (given)
             throw Error(ErrorCode::bad_usage, option, "is for a run that ends, and --watch does not",
@@ -65,7 +65,7 @@ class Watch {
 }  // namespace
 
 ExitCode watch_folder(const Arguments& arguments) {
-    check(arguments);
+    check_watch(arguments);
     const std::vector<BatchRequest> requests = folder_requests(arguments);
     const BatchRequest& first = requests.front();
     Interrupt interrupt;

@@ -8,7 +8,7 @@
 namespace dstylize {
 namespace {
 
-constexpr float kCornerCosine = 0.5f;
+constexpr float kCuspCosine = 0.5f;
 constexpr int kMostPieces = 64;
 /// Points nearer to each other are one: their directions would be rounding noise.
 constexpr float kSamePoint = 1e-5f;
@@ -30,7 +30,7 @@ TaperedLine without_repeats(std::span<const Vec2f> points, std::span<const float
 bool is_corner(const TaperedLine& line, std::size_t i) {
     if (i == 0 || i + 1 == line.size()) return true;
     const Vec2f in = line[i].at - line[i - 1].at, out = line[i + 1].at - line[i].at;
-    return dot(in, out) < kCornerCosine * length(in) * length(out);
+    return dot(in, out) < kCuspCosine * length(in) * length(out);
 }
 
 /// Derivative at the middle of three points for a parameter that runs from 0 to 1 over a segment of

@@ -12,7 +12,6 @@
 namespace dstylize {
 namespace {
 
-using Place = RootParameters::Place;
 constexpr std::string_view kPlaces[] = {"bottom", "top", "centre", "darkest"};
 
 std::string_view trimmed(std::string_view text) {
@@ -47,8 +46,8 @@ std::string_view take_part(std::string_view& text) {
 
 RootChoice parsed_root(std::string_view text) {
     for (std::size_t i = 0; i < std::size(kPlaces); ++i)
-        if (text == kPlaces[i]) return {Place(int(i)), {}, {}};
-    if (text == "center") return {Place::centre, {}, {}};
+        if (text == kPlaces[i]) return {RootParameters::Place(int(i)), {}, {}};
+    if (text == "center") return {RootParameters::Place::centre, {}, {}};
     std::string_view rest = text;
     const auto x = parsed_coordinate(take_part(rest)), y = parsed_coordinate(trimmed(rest));
     if (!x || !y)

@@ -17,7 +17,6 @@ constexpr int kTileSamples = 128;
 /// whole pixel would show. Three across the mean stroke: gaps between strokes are about as wide as they.
 constexpr double kLeastSamplesPerPixel = 2, kSamplesPerWidth = 3;
 constexpr double kMostSamples = 128e6;
-constexpr float kFlatness = 0.05f;  // samples
 /// A run may hold this many segments that miss the tile before a new run is cheaper.
 constexpr std::uint32_t kRunGap = 8;
 

@@ -11,6 +11,7 @@
 #include "core/sampling.h"
 #include "geometry/tapered_line.h"
 #include "imaging/filters.h"
+#include "render/detail_prepare.h"
 
 namespace dstylize {
 namespace {
@@ -47,7 +48,6 @@ class Rods {
 
   private:
     void add(const VariableStroke& stroke, float tip_length_px, std::uint32_t colour) {
-        constexpr float kFlatness = 0.05f;
         const float width_scale = std::sqrt(scale_.x * scale_.y);
         std::vector<Vec2f> points;
         std::vector<float> widths;

@@ -15,7 +15,7 @@
 namespace dstylize {
 namespace {
 
-constexpr Extent kSize{300, 220};
+constexpr Extent kCrown{300, 220};
 
 Drawing autumn(const Picture& picture, const std::vector<Setting>& settings, bool no_picture = false) {
     std::vector<Setting> all{{"lattice.detail", "240"},
@@ -40,7 +40,7 @@ std::vector<Fill> leaves(const Drawing& drawing, std::string_view layer) {
 double mean(const std::vector<Fill>& leaves, float from, float to, const std::function<float(Rgba)>& value) {
     double sum = 0, n = 0;
     for (const Fill& leaf : leaves) {
-        const float x = leaf.outline_px[0].x / float(kSize.x);
+        const float x = leaf.outline_px[0].x / float(kCrown.x);
         if (x >= from && x < to) sum += double(value(leaf.colour)), ++n;
     }
     EXPECT_GT(n, 10);
@@ -51,14 +51,14 @@ float redness(Rgba c) { return c.r - c.g; }
 
 /// One colour on the left, another on the right, of the same luma.
 Picture red_and_green() {
-    Picture out = test::flat(kSize, {190, 84, 84, 255});
-    for (int j = 0; j < kSize.y; ++j)
-        for (int i = kSize.x / 2; i < kSize.x; ++i) out(i, j) = {70, 145, 85, 255};
+    Picture out = test::flat(kCrown, {190, 84, 84, 255});
+    for (int j = 0; j < kCrown.y; ++j)
+        for (int i = kCrown.x / 2; i < kCrown.x; ++i) out(i, j) = {70, 145, 85, 255};
     return out;
 }
 
 TEST(Foliage, LeavesBehindTheBranchesAreInTheShade) {
-    const Drawing drawing = autumn(test::scene(kSize), {});
+    const Drawing drawing = autumn(test::scene(kCrown), {});
     const double behind = mean(leaves(drawing, "leaves behind"), 0, 1, luma),
                  front = mean(leaves(drawing, "leaves"), 0, 1, luma);
     EXPECT_LT(behind, 0.75 * front);
@@ -71,14 +71,14 @@ TEST(Foliage, LeavesBehindTheBranchesAreInTheShade) {
 
 TEST(Foliage, TheForemostLeavesComeLastAndAreTheLightest) {
     const std::vector<Fill> all =
-        leaves(autumn(test::flat(kSize, {128, 128, 128, 255}), {{"tree.leaf_depth", "0.8"}}), "leaves");
+        leaves(autumn(test::flat(kCrown, {128, 128, 128, 255}), {{"tree.leaf_depth", "0.8"}}), "leaves");
     const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
     EXPECT_GT(mean({middle, all.end()}, 0, 1, luma), 1.2 * mean({all.begin(), middle}, 0, 1, luma));
 }
 
 TEST(Foliage, NoPaperShowsInTheMiddleOfTheCrown) {
     const auto paper = [](const std::vector<Setting>& settings) {
-        const Picture out = raster(autumn(test::scene(kSize), settings).list, {kSize}, {});
+        const Picture out = raster(autumn(test::scene(kCrown), settings).list, {kCrown}, {});
         int n = 0;
         for (int y = 50; y < 130; ++y)
             for (int x = 90; x < 210; ++x) n += out(x, y).b > 200;
@@ -92,15 +92,15 @@ TEST(Foliage, NoPaperShowsInTheMiddleOfTheCrown) {
 
 TEST(Foliage, BoughsAreSeenWhereLeavesMakeRoom) {
     const auto front = [](const char* seen) {
-        return leaves(autumn(test::scene(kSize), {{"tree.boughs_seen", seen}}), "leaves").size();
+        return leaves(autumn(test::scene(kCrown), {{"tree.boughs_seen", seen}}), "leaves").size();
     };
     EXPECT_LT(front("1"), front("0"));
 }
 
 TEST(Foliage, DarkPlacesHaveDarkLeaves) {
-    Picture halves = test::flat(kSize, {225, 225, 225, 255});
-    for (int j = 0; j < kSize.y; ++j)
-        for (int i = kSize.x / 2; i < kSize.x; ++i) halves(i, j) = {30, 30, 30, 255};
+    Picture halves = test::flat(kCrown, {225, 225, 225, 255});
+    for (int j = 0; j < kCrown.y; ++j)
+        for (int i = kCrown.x / 2; i < kCrown.x; ++i) halves(i, j) = {30, 30, 30, 255};
     const std::vector<Fill> all = leaves(autumn(halves, {}), "leaves");
     EXPECT_GT(mean(all, 0.2f, 0.5f, luma), 2 * mean(all, 0.6f, 0.8f, luma));
 }
@@ -120,7 +120,7 @@ TEST(Foliage, LeavesHaveThePicturesHuesWhereThePictureIs) {
 TEST(Foliage, SomeLeavesAreStillGreen) {
     const auto greens = [](const char* share) {
         const std::vector<Fill> all = leaves(
-            autumn(test::flat(kSize, {128, 128, 128, 255}), {{"tree.green_share", share}, {"tree.hue_variety", "0"}}),
+            autumn(test::flat(kCrown, {128, 128, 128, 255}), {{"tree.green_share", share}, {"tree.hue_variety", "0"}}),
             "leaves");
         return double(
                    std::ranges::count_if(all, [](const Fill& leaf) { return leaf.colour.r < 1.06f * leaf.colour.g; })) /

@@ -13,20 +13,20 @@
 namespace dstylize {
 namespace {
 
-constexpr Extent kSize{160, 120};
+constexpr Extent kScene{160, 120};
 
 Picture picture_of(const std::string& style, const std::vector<Setting>& settings) {
     std::vector<Setting> all{{"lattice.detail", "160"}};
     all.insert(all.end(), settings.begin(), settings.end());
-    Picture scene = test::scene(kSize);
+    Picture scene = test::scene(kScene);
     for (std::size_t n = 0; n < scene.size(); ++n) scene[n].b = std::uint8_t(scene[n].b / 2);  // colour to lose
-    return raster(stylize(scene, load_style(style, all), {}).list, {kSize}, {});
+    return raster(stylize(scene, load_style(style, all), {}).list, {kScene}, {});
 }
 
 /// Collects a table's parameters as settings that are far from its own values.
-class Changes final : public ParameterVisitor {
+class ChangedValues final : public ParameterVisitor {
   public:
-    explicit Changes(std::string table) : table_(std::move(table)) {}
+    explicit ChangedValues(std::string table) : table_(std::move(table)) {}
     void number(ParameterDoc doc, float& value, float lo, float hi) override {
         // To the farther end, but not beyond what any picture could show.
         const float far =
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(All, LightStyles, ::testing::Values("lightning", "storm
 
 TEST_P(LightStyles, EveryParameterOfTheLightIsSeen) {
     Style style = load_style(GetParam());
-    Changes changes(GetParam());
+    ChangedValues changes(GetParam());
     style.metaphor->visit(changes);
     ASSERT_GT(changes.settings.size(), 20u);
     // These three are weights of what a style may leave out: they are tried where they are in.
@@ -88,7 +88,7 @@ TEST_P(LightStyles, EveryParameterOfTheGrowthIsSeen) {
 }
 
 TEST_P(LightStyles, GrowDownwards) {
-    const Drawing d = stylize(test::scene(kSize), load_style(GetParam(), {{"lattice.detail", "200"}}), {});
+    const Drawing d = stylize(test::scene(kScene), load_style(GetParam(), {{"lattice.detail", "200"}}), {});
     double fall = 0, run = 0;
     for (std::uint32_t v = 0; v < d.dendrite.size(); ++v) {
         if (d.dendrite.is_root(v)) continue;
@@ -100,24 +100,24 @@ TEST_P(LightStyles, GrowDownwards) {
 }
 
 TEST_P(LightStyles, VectorFilesHoldTheLight) {
-    const Drawing d = stylize(test::scene(kSize), load_style(GetParam(), {{"lattice.detail", "200"}}), {});
+    const Drawing d = stylize(test::scene(kScene), load_style(GetParam(), {{"lattice.detail", "200"}}), {});
     DisplayList vectors = with_lit_ground(d.list, 4096, {});
     ASSERT_TRUE(vectors.paper.picture);
-    EXPECT_EQ(vectors.paper.picture->extent(), kSize);
+    EXPECT_EQ(vectors.paper.picture->extent(), kScene);
     // Painted as vector formats paint it: strokes in their colours, here over instead of screened.
     for (Layer& layer : vectors.layers) layer.glow.reset();
-    const Picture flat = raster(vectors, {kSize}, {}), wanted = raster(d.list, {kSize}, {});
+    const Picture flat = raster(vectors, {kScene}, {}), wanted = raster(d.list, {kScene}, {});
     double difference = 0;
     for (std::size_t n = 0; n < flat.size(); ++n) difference += std::abs(int(flat[n].g) - int(wanted[n].g));
     EXPECT_LT(difference / double(flat.size()), 12);
 }
 
 TEST(Storm, TheTransparentPartsOfThePictureStayTransparent) {
-    Picture scene = test::scene(kSize);
-    for (int j = 0; j < kSize.y; ++j)
+    Picture scene = test::scene(kScene);
+    for (int j = 0; j < kScene.y; ++j)
         for (int i = 0; i < 40; ++i) scene(i, j).a = 0;
     const Drawing d = stylize(scene, load_style("storm", {{"lattice.detail", "160"}}), {});
-    const Picture out = raster(d.list, {kSize}, {});
+    const Picture out = raster(d.list, {kScene}, {});
     EXPECT_LT(out(3, 117).a, 40);
     EXPECT_EQ(out(120, 60).a, 255);
 }

@@ -27,12 +27,12 @@ class EveryPlanner : public ::testing::TestWithParam<const Planner* (*)()> {
     }
 };
 
-const Planner* reference() { return &reference_planner(); }
-const Planner* bucket() { return &bucket_planner(); }
-const Planner* tiles() { return &tile_planner(); }
-INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner, ::testing::Values(&reference));
-INSTANTIATE_TEST_SUITE_P(Bucket, EveryPlanner, ::testing::Values(&bucket));
-INSTANTIATE_TEST_SUITE_P(Tiles, EveryPlanner, ::testing::Values(&tiles));
+const Planner* reference_one() { return &reference_planner(); }
+const Planner* bucket_one() { return &bucket_planner(); }
+const Planner* tile_one() { return &tile_planner(); }
+INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner, ::testing::Values(&reference_one));
+INSTANTIATE_TEST_SUITE_P(Bucket, EveryPlanner, ::testing::Values(&bucket_one));
+INSTANTIATE_TEST_SUITE_P(Tiles, EveryPlanner, ::testing::Values(&tile_one));
 
 /// How a metric compares labels.
 std::pair<std::uint64_t, std::uint64_t> compared(Metric metric, PathLabel l) {

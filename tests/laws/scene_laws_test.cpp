@@ -17,7 +17,7 @@
 namespace dstylize {
 namespace {
 
-constexpr Extent kSize{120, 160}, kLand{320, 240};
+constexpr Extent kPortrait{120, 160}, kLand{320, 240};
 constexpr Box kBox{{60, 20}, {150, 180}};
 
 /// Of many colours, so that no pixel is like its neighbours by chance.
@@ -33,7 +33,7 @@ Picture land() {
 }
 
 Drawing drawing_of(const std::string& style) {
-    return stylize(test::scene(kSize), test::quick_style(style, {{"lattice.detail", "160"}}), {});
+    return stylize(test::scene(kPortrait), test::quick_style(style, {{"lattice.detail", "160"}}), {});
 }
 
 /// Everything off: the drawing on the background as it is.

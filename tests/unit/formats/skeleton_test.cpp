@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-const DocumentInfo kInfo{0, 0, "Vine", {{"author", "Zoë"}, {"recipe", "[style]\n\"x\" = 1\n"}}};
+const DocumentInfo kVineInfo{0, 0, "Vine", {{"author", "Zoë"}, {"recipe", "[style]\n\"x\" = 1\n"}}};
 
 /// Three roots with random branches.
 Skeleton sample() {
@@ -44,7 +44,7 @@ void expect_rejected(const std::string& text, const std::string& why = "") {
 
 TEST(SkeletonJson, ReadsBackWhatItWrote) {
     const Skeleton a = sample();
-    const Skeleton b = read_skeleton_json(skeleton_json(a, kInfo));
+    const Skeleton b = read_skeleton_json(skeleton_json(a, kVineInfo));
     EXPECT_EQ(b.lattice, a.lattice);
     EXPECT_EQ(b.picture, a.picture);
     EXPECT_EQ(b.stage_names, a.stage_names);
@@ -60,12 +60,12 @@ TEST(SkeletonJson, ReadsBackWhatItWrote) {
         EXPECT_NEAR(b.width_u[v], a.width_u[v], 0.000501);
     }
     // Rounding happens once.
-    EXPECT_EQ(skeleton_json(b, kInfo), skeleton_json(a, kInfo));
+    EXPECT_EQ(skeleton_json(b, kVineInfo), skeleton_json(a, kVineInfo));
 }
 
 TEST(SkeletonJson, IsJsonThatSaysWhatItHolds) {
     Skeleton s = sample();
-    const json j = json::parse(skeleton_json(s, kInfo));
+    const json j = json::parse(skeleton_json(s, kVineInfo));
     EXPECT_EQ(j["format"], "dstylize skeleton");
     EXPECT_EQ(j["info"]["author"], "Zoë");
     EXPECT_EQ(j["info"]["recipe"], "[style]\n\"x\" = 1\n");
@@ -74,8 +74,8 @@ TEST(SkeletonJson, IsJsonThatSaysWhatItHolds) {
     EXPECT_EQ(j["parent"][0], -1);
     EXPECT_EQ(j["node"][5], -1);
     s.width_u.clear();
-    EXPECT_FALSE(json::parse(skeleton_json(s, kInfo)).contains("width"));
-    EXPECT_TRUE(read_skeleton_json(skeleton_json(s, kInfo)).width_u.empty());
+    EXPECT_FALSE(json::parse(skeleton_json(s, kVineInfo)).contains("width"));
+    EXPECT_TRUE(read_skeleton_json(skeleton_json(s, kVineInfo)).width_u.empty());
 }
 
 TEST(SkeletonJson, NumbersAreExactHundredths) {
@@ -98,9 +98,9 @@ TEST(SkeletonJson, DoesNotDependOnTheLocale) {
     };
     Skeleton s = sample();
     s.picture.x = 123456;
-    const std::string here = skeleton_json(s, kInfo);
+    const std::string here = skeleton_json(s, kVineInfo);
     const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
-    const std::string there = skeleton_json(s, kInfo);
+    const std::string there = skeleton_json(s, kVineInfo);
     std::locale::global(before);
     EXPECT_EQ(here, there);
 }
@@ -113,7 +113,7 @@ TEST(SkeletonJson, TextThatIsNotSuchAnObjectIsRejected) {
     for (const char* text : {"", "{", "[]", "null", "3", "{}", "{\"format\":\"other\"}", "{\"format\":7}", "\xff\xfe"})
         expect_rejected(text);
     expect_rejected(std::string(100000, '['));
-    std::string text = skeleton_json(sample(), kInfo);
+    std::string text = skeleton_json(sample(), kVineInfo);
     expect_rejected(text.substr(0, text.size() / 2), "not JSON");
     expect_rejected(text + "x", "not JSON");
 }
@@ -190,7 +190,7 @@ TEST(SkeletonJson, EveryBrokenPartIsRejected) {
     };
     for (const Case& c : cases) {
         SCOPED_TRACE(c.name);
-        json j = json::parse(skeleton_json(sample(), kInfo));
+        json j = json::parse(skeleton_json(sample(), kVineInfo));
         EXPECT_NO_THROW(read_skeleton_json(j.dump()));
         c.damage(j);
         expect_rejected(j.dump());
@@ -198,7 +198,7 @@ TEST(SkeletonJson, EveryBrokenPartIsRejected) {
 }
 
 TEST(SkeletonJson, AnyChangedByteIsReadOrRejectedCleanly) {
-    const std::string good = skeleton_json(sample(), kInfo);
+    const std::string good = skeleton_json(sample(), kVineInfo);
     const Noise noise(9, Purpose::jitter);
     for (std::uint64_t k = 0; k < 3000; ++k) {
         std::string text = good;
@@ -212,7 +212,7 @@ TEST(SkeletonJson, AnyChangedByteIsReadOrRejectedCleanly) {
 }
 
 TEST(SkeletonJson, UnknownKeysAreIgnored) {
-    json j = json::parse(skeleton_json(sample(), kInfo));
+    json j = json::parse(skeleton_json(sample(), kVineInfo));
     j["future"] = {1, 2, 3};
     EXPECT_EQ(read_skeleton_json(j.dump()).dendrite.size(), 200u);
 }
