@@ -1,6 +1,7 @@
-// Mould's stippling flood with integer costs. Nodes within the threshold wait in buckets by
-// cost: an edge costs something, so the order inside a bucket changes no cost. Nodes beyond it wait in
-// a heap by (cost, index), since there the first one becomes the next stipple.
+// Mould's stippling flood with integer costs. What lies within the threshold of a stipple, its cell, is reached from it
+// alone, so its nodes may be relaxed in any order as long as they are closed together: in coarse buckets, while the
+// cell is in cache. Nodes beyond wait by (cost, index), since there the first one becomes the next stipple; they cost
+// at most one edge more than the threshold, so that a bucket for each cost will do.
 #include "graph/graph_distance.h"
 
 #include <algorithm>
@@ -9,134 +10,204 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
-#include <queue>
+#include <optional>
 
 namespace dstylize {
 namespace {
 
-constexpr std::uint32_t kLevels = 1023;
-constexpr std::uint32_t kFar = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kLevels = 1023, kDearestEdge = 2 * kLevels;
+/// In how many steps a cell grows to its threshold: with fewer, more nodes are expanded twice; with more, more wait.
+constexpr std::uint64_t kSteps = 4;
+constexpr std::size_t kNodesBetweenChecks = 1 << 16;
 
 std::uint16_t node_cost(float expense) {
     if (!(expense > 0)) return 1;
-    return std::uint16_t(std::max(1L, std::lround(std::min(expense, 1.f) * float(kLevels))));
+    return std::max<std::uint16_t>(1, std::uint16_t(std::min(expense, 1.f) * float(kLevels) + 0.5f));
 }
 
-/// Nodes by cost, for costs that lie within one edge of each other: a ring of buckets, one per cost, and
-/// a bitmap to find the next that is not empty.
-class BucketRing {
+/// Nodes with a bucket for each cost over the threshold, and a bitmap to find the first that is not empty. Inside a
+/// bucket, the smallest index comes first.
+class Frontier {
   public:
-    void push(std::uint32_t cost, std::uint32_t node) {
-        const std::uint32_t b = cost % kCount;
-        bucket_[b].push_back(node);
-        occupied_[b / 64] |= std::uint64_t{1} << b % 64;
-        ++size_;
+    void push(std::uint32_t over, std::uint32_t node) {
+        std::vector<std::uint32_t>& bucket = bucket_[over];
+        bucket.push_back(node);
+        std::push_heap(bucket.begin(), bucket.end(), std::greater<>());
+        occupied_[over / 64] |= std::uint64_t{1} << over % 64;
     }
-    bool empty() const { return size_ == 0; }
-    /// Takes a node of the least cost, which is at least `from`.
-    std::pair<std::uint32_t, std::uint32_t> pop(std::uint32_t from) {
-        std::uint32_t w = from % kCount / 64;
-        std::uint64_t word = occupied_[w] & (~std::uint64_t{0} << from % 64);
-        while (word == 0) {
-            w = (w + 1) % kWords;
-            word = occupied_[w];
+    /// Takes the least for which `waits(over, node)` holds; the others are dropped.
+    template <class Waits>
+    std::optional<std::uint32_t> pop(Waits waits) {
+        for (std::uint32_t word = 0; word < occupied_.size();) {
+            if (occupied_[word] == 0) {
+                ++word;
+                continue;
+            }
+            const std::uint32_t over = word * 64 + std::uint32_t(std::countr_zero(occupied_[word]));
+            std::vector<std::uint32_t>& bucket = bucket_[over];
+            if (over != first_) {
+                // Most wait no more, which is to be seen in no cache: so all are looked at together.
+                first_ = over;
+                std::erase_if(bucket, [&](std::uint32_t node) { return !waits(over, node); });
+                std::make_heap(bucket.begin(), bucket.end(), std::greater<>());
+            }
+            while (!bucket.empty()) {
+                std::pop_heap(bucket.begin(), bucket.end(), std::greater<>());
+                const std::uint32_t node = bucket.back();
+                bucket.pop_back();
+                if (waits(over, node)) return node;
+            }
+            occupied_[word] &= occupied_[word] - 1;
         }
-        const std::uint32_t b = w * 64 + std::uint32_t(std::countr_zero(word));
-        const std::uint32_t node = bucket_[b].back();
-        bucket_[b].pop_back();
-        if (bucket_[b].empty()) occupied_[w] &= ~(std::uint64_t{1} << b % 64);
-        --size_;
-        return {from + (b - from) % kCount, node};
+        return std::nullopt;
     }
 
   private:
-    static constexpr std::uint32_t kCount = 4096, kWords = kCount / 64;
-    static_assert(kCount > 2 * kLevels + 64, "a word of the bitmap must not be met from both ends");
-    std::array<std::vector<std::uint32_t>, kCount> bucket_;
-    std::array<std::uint64_t, kWords> occupied_{};
+    std::array<std::vector<std::uint32_t>, kDearestEdge + 1> bucket_;
+    std::array<std::uint64_t, kDearestEdge / 64 + 1> occupied_{};
+    std::uint32_t first_ = 0;  // the bucket that was looked through
+};
+
+/// Nodes that wait, behind one another.
+class Queue {
+  public:
+    /// Room for so many more.
+    void make_room(std::size_t count) {
+        if (node_.size() - size_ < count) node_.resize(2 * node_.size() + count);
+    }
+    /// Without a branch, which no processor could foretell; there must be room.
+    void push_if(bool wanted, std::uint32_t node) {
+        node_[size_] = node;
+        size_ += std::size_t(wanted);
+    }
+    std::size_t size() const { return size_; }
+    std::uint32_t operator[](std::size_t k) const { return node_[k]; }
+    std::uint32_t& operator[](std::size_t k) { return node_[k]; }
+    void shrink(std::size_t size) { size_ = size; }
+
+  private:
+    std::vector<std::uint32_t> node_;
     std::size_t size_ = 0;
 };
 
-/// The lattice has a rim of blocked nodes, so that no step needs a bounds check.
+/// The lattice has a rim of blocked nodes, so that no step needs a bounds check. A node is one word: its distance above
+/// its cost. Where nothing is to be lowered any more, outside the mask and where cells are done, distances are 0.
+template <class Word>
 class Flood {
   public:
     Flood(const GraphDistanceRequest& request, const Work& work)
         : work_(work),
           extent_(request.expense.extent()),
           stride_(std::uint32_t(extent_.x) + 2),
-          threshold_(std::uint32_t(std::lround(request.threshold * 2 * float(kLevels)))),
+          threshold_(threshold(request)),
           node_(std::size_t(stride_) * (std::size_t(extent_.y) + 2)) {
         for (int j = 0; j < extent_.y; ++j)
             for (int i = 0; i < extent_.x; ++i)
                 if (request.mask.empty() || request.mask(i, j) != 0)
-                    node_[at(i, j)] = {kFar, node_cost(request.expense(i, j)), true};
-        for (const NodeId start : request.starts) {
-            const std::uint32_t n = at(int(index(start)) % extent_.x, int(index(start)) / extent_.x);
-            if (node_[n].open) lower(n, 0);
-        }
+                    node_[at(i, j)] = kFar << kCostBits | node_cost(request.expense(i, j));
+        for (const NodeId start : request.starts)
+            start_at(at(int(index(start)) % extent_.x, int(index(start)) / extent_.x));
     }
 
     std::vector<NodeId> run() && {
-        expand_all();
+        flood();
         for (int j = 0; j < extent_.y; ++j)
             for (int i = 0; i < extent_.x; ++i)
-                if (node_[at(i, j)].open) {
-                    lower(at(i, j), 0);
-                    expand_all();
+                if (distance(at(i, j)) != 0) {
+                    start_at(at(i, j));
+                    flood();
                 }
         return std::move(stipples_);
     }
 
+    static std::uint64_t threshold(const GraphDistanceRequest& request) {
+        return std::uint64_t(std::lround(request.threshold * 2 * float(kLevels)));
+    }
+    static bool holds(std::uint64_t threshold) { return threshold + kDearestEdge < kFar; }
+
   private:
-    struct Node {
-        std::uint32_t distance = kFar;
-        std::uint16_t cost = 0;
-        bool open = false;  // may still be expanded
-    };
+    static constexpr int kCostBits = std::bit_width(kLevels);
+    static constexpr Word kFar = std::numeric_limits<Word>::max() >> kCostBits;
+    static constexpr Word kCost = (Word{1} << kCostBits) - 1;
 
     std::uint32_t at(int i, int j) const { return std::uint32_t(j + 1) * stride_ + std::uint32_t(i + 1); }
+    Word distance(std::uint32_t n) const { return node_[n] >> kCostBits; }
+    void set_distance(std::uint32_t n, Word distance) { node_[n] = distance << kCostBits | (node_[n] & kCost); }
 
-    void lower(std::uint32_t n, std::uint32_t distance) {
-        node_[n].distance = distance;
-        if (distance <= threshold_)
-            within_.push(distance, n);
-        else
-            beyond_.push(std::uint64_t(distance) << 32 | n);
+    void start_at(std::uint32_t n) {
+        if (distance(n) == 0) return;
+        set_distance(n, 0);
+        spread(n, 0, Word(threshold_ / kSteps));
     }
 
-    void expand(std::uint32_t n, std::uint32_t distance) {
-        if (++expanded_ % 65536 == 0) work_.check();
-        node_[n].open = false;
+    /// Lowers the neighbours of a node at that distance: those up to `near` wait for it, the others for later.
+    void spread(std::uint32_t n, Word distance, Word near) {
+        near_.make_room(4);
+        later_.make_room(4);
+        const Word so_far = distance + (node_[n] & kCost);
         for (const std::uint32_t v : {n - stride_, n - 1, n + 1, n + stride_}) {
-            const std::uint32_t reached = distance + node_[n].cost + node_[v].cost;
-            if (node_[v].open && reached < node_[v].distance) lower(v, reached);
+            const Word now = node_[v], cost = now & kCost, reached = so_far + cost;
+            const bool nearer = reached < now >> kCostBits;
+            node_[v] = nearer ? reached << kCostBits | cost : now;
+            near_.push_if(nearer && reached <= near, v);
+            later_.push_if(nearer && reached > near, v);
         }
     }
 
-    void expand_all() {
-        for (;;) {
-            for (std::uint32_t least = 0; !within_.empty();) {
-                const auto [distance, n] = within_.pop(least);
-                least = distance;
-                if (node_[n].open && node_[n].distance == distance) expand(n, distance);
-            }
-            if (beyond_.empty()) return;
-            const std::uint32_t n = std::uint32_t(beyond_.top());
-            const std::uint32_t distance = std::uint32_t(beyond_.top() >> 32);
-            beyond_.pop();
-            if (!node_[n].open || node_[n].distance != distance) continue;
-            stipples_.push_back(NodeId{(n / stride_ - 1) * std::uint32_t(extent_.x) + n % stride_ - 1});
-            expand(n, 0);
+    /// Expands all that lies within the threshold. Nodes that were reached on a detour are expanded again: their last
+    /// distance is the one that an exact order would have given, since all of the cell are closed together.
+    void grow_cell() {
+        std::size_t expanded = 0;
+        for (std::uint64_t step = 1, before = 0; step <= kSteps; ++step) {
+            const std::uint64_t near = threshold_ * step / kSteps;
+            if (step > 1) bring_near(Word(before), Word(near));
+            for (; expanded < near_.size(); ++expanded) spread(near_[expanded], distance(near_[expanded]), Word(near));
+            before = near;
+        }
+        for (std::size_t k = 0; k < near_.size(); ++k) set_distance(near_[k], 0);
+        near_.shrink(0);
+        for (std::size_t k = 0; k < later_.size(); ++k)
+            if (const Word d = distance(later_[k]); d != 0) frontier_.push(std::uint32_t(d - threshold_), later_[k]);
+        later_.shrink(0);
+        expanded_ += expanded;
+        if (expanded_ < kNodesBetweenChecks) return;
+        expanded_ = 0;
+        work_.check();
+    }
+
+    /// Sorts out again what waits for later; what has come nearer than `before` has been expanded.
+    void bring_near(Word before, Word near) {
+        near_.make_room(later_.size());
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < later_.size(); ++k) {
+            const std::uint32_t n = later_[k];
+            const Word d = distance(n);
+            near_.push_if(d > before && d <= near, n);
+            later_[kept] = n;
+            kept += std::size_t(d > near);
+        }
+        later_.shrink(kept);
+    }
+
+    void flood() {
+        grow_cell();
+        const auto waits = [&](std::uint32_t over, std::uint32_t n) { return distance(n) == threshold_ + over; };
+        while (const auto n = frontier_.pop(waits)) {
+            stipples_.push_back(NodeId{(*n / stride_ - 1) * std::uint32_t(extent_.x) + *n % stride_ - 1});
+            start_at(*n);
+            grow_cell();
         }
     }
 
     const Work& work_;
     const Extent extent_;
-    const std::uint32_t stride_, threshold_;
-    std::vector<Node> node_;
-    BucketRing within_;
-    std::priority_queue<std::uint64_t, std::vector<std::uint64_t>, std::greater<>> beyond_;
+    const std::uint32_t stride_;
+    const std::uint64_t threshold_;
+    std::vector<Word> node_;
+    Queue near_, later_;  // of the cell that grows
+    Frontier frontier_;
     std::vector<NodeId> stipples_;
     std::size_t expanded_ = 0;
 };
@@ -147,7 +218,9 @@ std::vector<NodeId> graph_distance_stipples(const GraphDistanceRequest& request,
     assert(request.threshold > 0 && request.threshold <= 1e6f);
     assert(request.mask.empty() || request.mask.extent() == request.expense.extent());
     work.check();
-    return Flood(request, work).run();
+    if (Flood<std::uint32_t>::holds(Flood<std::uint32_t>::threshold(request)))
+        return Flood<std::uint32_t>(request, work).run();
+    return Flood<std::uint64_t>(request, work).run();
 }
 
 }  // namespace dstylize

@@ -83,6 +83,13 @@ TEST(GraphDistance, FollowsItsRuleNodeByNode) {
     EXPECT_GT(placed, 10000u);
 }
 
+TEST(GraphDistance, CellsMayBeThousandsOfDearStepsWide) {
+    const Grid<float> expense({6000, 1}, 1);
+    const NodeId start[] = {NodeId{0}};
+    EXPECT_EQ(graph_distance_stipples({expense, 2500, start, kNoMask}, {}),
+              (std::vector<NodeId>{NodeId{2501}, NodeId{5002}}));
+}
+
 TEST(GraphDistance, SpacingIsTheThresholdOverTheExpense) {
     const NodeId start[] = {NodeId{0}};
     std::size_t before = 0;
