@@ -68,7 +68,7 @@ std::vector<float> emission_along(const TaperedLine& line, std::span<const Vec2f
     return out;
 }
 
-PreparedItem prepared_item(const Item& item, Scale scale) {
+PreparedItem prepared_item(const Item& item, Scale scale, float flatness) {
     PreparedItem out;
     auto scaled = [&](Vec2f p) { return Vec2f{p.x * scale.x, p.y * scale.y}; };
     if (const auto* fill = std::get_if<Fill>(&item)) {
@@ -84,7 +84,7 @@ PreparedItem prepared_item(const Item& item, Scale scale) {
         points.push_back(scaled(stroke.points_px[i]));
         widths.push_back(stroke.width_px[i] * scale.width);
     }
-    out.line = simplified(smooth_line(points, widths, kFlatness), kFlatness);
+    out.line = simplified(smooth_line(points, widths, flatness), flatness);
     straighten_thin_ends(out.line);
     if (!stroke.emission.empty()) out.emission = emission_along(out.line, points, stroke.emission);
     return out;
@@ -172,8 +172,9 @@ Prepared prepared(const DisplayList& list, std::span<const Layer> layers, const 
     for (const Layer& layer : layers)
         for (const Item& item : layer.items) sources.push_back(&item);
     out.items.resize(sources.size());
-    tbb::parallel_for(std::size_t(0), sources.size(),
-                      [&](std::size_t i) { out.items[i] = prepared_item(*sources[i], scale); });
+    tbb::parallel_for(std::size_t(0), sources.size(), [&](std::size_t i) {
+        out.items[i] = prepared_item(*sources[i], scale, options.flatness_samples);
+    });
     work.check();
     assign_layers_and_colours(layers, out);
     Binner binner(out);

@@ -11,9 +11,6 @@
 
 namespace dstylize {
 
-/// How far a flattened line may be from its curve, in samples.
-constexpr float kFlatness = 0.05f;
-
 /// One item in the raster's sample frame; a stroke has a line, a fill an outline.
 struct PreparedItem {
     TaperedLine line;

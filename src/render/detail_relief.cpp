@@ -11,12 +11,12 @@
 #include "core/sampling.h"
 #include "geometry/tapered_line.h"
 #include "imaging/filters.h"
-#include "render/detail_prepare.h"
 
 namespace dstylize {
 namespace {
 
 constexpr int kBand = 32;  // rows that one task paints
+constexpr float kFlatness_px = 0.05f;
 
 /// A piece of a stroke in output pixels.
 struct Rod {
@@ -55,7 +55,7 @@ class Rods {
             points.push_back({stroke.points_px[k].x * scale_.x, stroke.points_px[k].y * scale_.y});
             widths.push_back(stroke.width_px[k] * width_scale);
         }
-        const TaperedLine line = simplified(smooth_line(points, widths, kFlatness), kFlatness);
+        const TaperedLine line = simplified(smooth_line(points, widths, kFlatness_px), kFlatness_px);
         if (line.empty()) return;
         const float decay = std::max(1e-3f, tip_length_px * width_scale);
         float to_end = 0, tip_b = 1;

@@ -11,6 +11,8 @@ struct RasterOptions {
     Extent size_px;
     /// Of samples along each axis, 2 to 8. Fewer are faster; where thin strokes are dense, their ink comes out lower.
     int most_samples_per_pixel = 8;
+    /// How far a flattened stroke may be from its curve, in samples. More is faster.
+    float flatness_samples = 0.05f;
 };
 
 /// The display list painted into pixels of straight alpha; the size of the output is free.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/sampling.h"
+#include "imaging/bands.h"
 #include "imaging/filters.h"
 
 namespace dstylize {
@@ -91,15 +92,15 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
         wanted = blurred(target_ink_, kDensityWindow_u / 2 * u);
     }
     if (p.piped > 0) pipe_ = pipe_widths(dendrite, branching, p.pipe, u);
-    for (std::uint32_t v = 0; v < raw_.size(); ++v) {
+    each_index(raw_.size(), [&](std::size_t v) {
         float tone_width = 0;
         if (p.tone > 0) {
             const Vec2f at = dendrite.position_lattice[v];
             tone_width = (sample(wanted, at) + kImportanceInk * sample(fields.importance, at)) /
                          std::max(sample(density, at), kLeastDensity);
         }
-        raw_[v] = raw_width(v, tone_width);
-    }
+        raw_[v] = raw_width(std::uint32_t(v), tone_width);
+    });
     trunk_ = trunk_widths();
     finish();
 }
@@ -166,12 +167,12 @@ float Widths::swing(std::uint32_t v, float width) const {
 
 void Widths::correct(const Grid<float>& target, const Grid<float>& drawn) {
     constexpr float kFloor = 0.03f;  // keeps the ratio calm where nothing is wanted and nothing drawn
-    for (std::uint32_t v = 0; v < raw_.size(); ++v) {
+    each_index(raw_.size(), [&](std::size_t v) {
         const Vec2f at = dendrite_.position_lattice[v];
         const float ratio = (sample(target, at) + kFloor) / (sample(drawn, at) + kFloor);
         raw_[v] = std::clamp(raw_[v] * std::clamp(ratio, 1 / kMostCorrection, kMostCorrection),
                              0.8f * parameters_.narrowest * u_, 1.4f * parameters_.widest * u_);
-    }
+    });
     finish();
 }
 
@@ -183,14 +184,20 @@ void Widths::finish() {
     taper_tips();
 }
 
+/// Calls f for all branches, several at a time.
+template <class F>
+void Widths::each_branch(F f) const {
+    each_index(
+        branching_.branches.size(), [&](std::size_t b) { f(branching_.branches[b]); }, kBandOfBranches);
+}
+
 /// Mean over +-window along the branch, reaching into the parent at the start and past the tip at the
 /// end, where nothing is: so branches thin out by themselves (004 s. 4.3).
 void Widths::roll(std::vector<float>& values) const {
     const auto reach = std::size_t(parameters_.window * u_);
     if (reach == 0) return;
     std::vector<float> out = values;
-    std::vector<double> sums;
-    for (const Branch& branch : branching_.branches) {
+    each_branch([&](const Branch& branch) {
         const std::size_t first = branch.parent_branch == Branch::kNone ? 0 : 1;
         std::vector<float> before;
         for (std::uint32_t v = branch.nodes[0]; before.size() < reach; v = dendrite_.parent[v]) {
@@ -198,7 +205,8 @@ void Widths::roll(std::vector<float>& values) const {
             if (dendrite_.is_root(v)) break;
         }
         before.resize(reach, before.back());
-        sums.assign(1, 0);
+        std::vector<double> sums{0};
+        sums.reserve(2 * reach + branch.nodes.size() + 1);
         for (auto k = before.rbegin(); k != before.rend(); ++k) sums.push_back(sums.back() + *k);
         for (std::size_t k = first; k < branch.nodes.size(); ++k) sums.push_back(sums.back() + values[branch.nodes[k]]);
         sums.insert(sums.end(), reach, sums.back());
@@ -206,7 +214,7 @@ void Widths::roll(std::vector<float>& values) const {
             const std::size_t centre = reach + k - first;
             out[branch.nodes[k]] = float((sums[centre + reach + 1] - sums[centre - reach]) / double(2 * reach + 1));
         }
-    }
+    });
     values = std::move(out);
 }
 
@@ -218,12 +226,12 @@ std::vector<float> Widths::trunk_widths() const {
     if (p.trunk <= 0) return {};
     const Grid<float> tone = blurred(fields_.tone, kToneWindow_u * u_);
     std::vector<float> out(dendrite_.size());
-    for (std::uint32_t v = 0; v < out.size(); ++v) {
+    each_index(out.size(), [&](std::size_t v) {
         const float share = std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent);
         const float tempered =
             p.trunk_least_tone + (1 - p.trunk_least_tone) * sample(tone, dendrite_.position_lattice[v]);
         out[v] = p.trunk * u_ * share * tempered;
-    }
+    });
     return out;
 }
 
@@ -254,7 +262,7 @@ void Widths::cap_at_junctions() {
 void Widths::taper_tips() {
     constexpr float kLengthsPerWidth = 5;
     const WidthParameters& p = parameters_;
-    for (const Branch& branch : branching_.branches) {
+    each_branch([&](const Branch& branch) {
         float total = 0;
         for (std::size_t k = 1; k < branch.nodes.size(); ++k)
             total +=
@@ -271,7 +279,7 @@ void Widths::taper_tips() {
                 distance(dendrite_.position_lattice[branch.nodes[k]], dendrite_.position_lattice[branch.nodes[k - 1]]);
             if (arc > std::max(p.tip * u_, kLengthsPerWidth * std::max(p.widest, p.trunk) * u_)) break;
         }
-    }
+    });
 }
 
 }  // namespace dstylize

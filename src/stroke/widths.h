@@ -69,6 +69,8 @@ class Widths {
     float raw_width(std::uint32_t v, float tone_width) const;
     float swing(std::uint32_t v, float width) const;
     void finish();
+    template <class F>
+    void each_branch(F f) const;
     void roll(std::vector<float>& values) const;
     std::vector<float> trunk_widths() const;
     void raise_trunk();
