@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -100,11 +101,12 @@ class Fields {
     const Grid<float>& source_luma() const { return luma_; }
 
   private:
-    static constexpr std::size_t kCount = 0
-#define DSTYLIZE_FIELD(name, function, meaning) +1
+    static constexpr int kEach[] = {
+#define DSTYLIZE_FIELD(name, function, meaning) 0,
 #include "importance/fields.def"
 #undef DSTYLIZE_FIELD
-        ;
+    };
+    static constexpr std::size_t kCount = std::size(kEach);
     Grid<float> luma_;
     FieldParameters parameters_;
     UserMaps maps_;

@@ -6,6 +6,8 @@
 #include <thread>
 
 #include "contract/app/folder_fixture.h"
+#include "support/sanitized.h"
+#include "unit/formats/picture_files.h"
 
 namespace dstylize::test {
 namespace {
@@ -32,6 +34,17 @@ TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
         EXPECT_EQ(read_picture(folder_ / "out" / small).picture.extent(), kSize);
     }
     EXPECT_NE(page.find("c d&amp;.png"), std::string::npos);
+}
+
+TEST_F(FolderTest, DrawsWhatNeedsMoreMemoryThanItsShareAlone) {
+    if (kSanitized) GTEST_SKIP() << "a sanitizer takes several times the memory";
+    constexpr int kSide = 13'000;
+    PngHeader header{kSide, kSide, 1, 0};
+    write_file(folder_ / "photos/large.png", png_file(header, std::string((kSide + 7) / 8 * kSide, '\x55')));
+    expect_error(draw({"photos/large.png", "alone.png", "--size", "100", "--max-memory", "1G"}), 3,
+                 {"large.png", "--max-memory"});
+    expect_done(draw_all({"--size", "100", "--max-memory", "2G", "--threads", "2"}));
+    EXPECT_EQ(states()["large.png"], "done");
 }
 
 TEST_F(FolderTest, IsDrawnOnceAndAgainOnlyWhereSomethingChanged) {
