@@ -15,12 +15,10 @@ void in_bands(std::size_t count, const std::function<void(std::size_t, std::size
 /// Calls f(n) for every index below `count`, band by band.
 template <class F>
 void each_index(std::size_t count, F f, std::size_t band = kBandOfNodes) {
-    in_bands(
-        count,
-        [&f](std::size_t begin, std::size_t end) {
-            for (std::size_t n = begin; n < end; ++n) f(n);
-        },
-        band);
+    const auto each_of_band = [&f](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) f(n);
+    };
+    in_bands(count, each_of_band, band);
 }
 
 }  // namespace dstylize

@@ -12,28 +12,35 @@
 
 namespace dstylize {
 
+namespace {
+
+VariableStroke stroke_along(const Centreline& line, const Dendrite& dendrite, const Branch& branch,
+                            const std::vector<float>& widths, const StrokeFrame& to) {
+    constexpr float kHiddenInParent = 0.9f;
+    VariableStroke stroke;
+    stroke.order = branch.order;
+    stroke.stage = dendrite.stage[branch.nodes.back()];
+    for (const Vec2f p : line.points_lattice) stroke.points_px.push_back(to.px(p));
+    const float first = widths[branch.nodes[0]],
+                second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
+    const bool joins = branch.parent_branch != Branch::kNone;
+    const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
+    stroke.width_px.assign(line.lead, at_joint * to.width_scale);
+    stroke.width_px.push_back(at_joint * to.width_scale);
+    for (std::size_t k = 1; k < branch.nodes.size(); ++k)
+        stroke.width_px.push_back(widths[branch.nodes[k]] * to.width_scale);
+    return stroke;
+}
+
+}  // namespace
+
 std::vector<VariableStroke> strokes(const std::vector<Centreline>& lines, const Dendrite& dendrite, const Branching& b,
                                     const std::vector<float>& widths, const StrokeFrame& to) {
-    constexpr float kHiddenInParent = 0.9f;
     std::vector<VariableStroke> out(lines.size());
-    each_index(
-        lines.size(),
-        [&](std::size_t s) {
-            const Branch& branch = b.branches[lines[s].branch];
-            VariableStroke& stroke = out[s];
-            stroke.order = branch.order;
-            stroke.stage = dendrite.stage[branch.nodes.back()];
-            for (const Vec2f p : lines[s].points_lattice) stroke.points_px.push_back(to.px(p));
-            const float first = widths[branch.nodes[0]],
-                        second = widths[branch.nodes[std::min<std::size_t>(1, branch.nodes.size() - 1)]];
-            const bool joins = branch.parent_branch != Branch::kNone;
-            const float at_joint = joins ? kHiddenInParent * std::min(first, second) : first;
-            stroke.width_px.assign(lines[s].lead, at_joint * to.width_scale);
-            stroke.width_px.push_back(at_joint * to.width_scale);
-            for (std::size_t k = 1; k < branch.nodes.size(); ++k)
-                stroke.width_px.push_back(widths[branch.nodes[k]] * to.width_scale);
-        },
-        kBandOfBranches);
+    const auto make = [&](std::size_t s) {
+        out[s] = stroke_along(lines[s], dendrite, b.branches[lines[s].branch], widths, to);
+    };
+    each_index(lines.size(), make, kBandOfBranches);
     return out;
 }
 

@@ -187,8 +187,8 @@ void Widths::finish() {
 /// Calls f for all branches, several at a time.
 template <class F>
 void Widths::each_branch(F f) const {
-    each_index(
-        branching_.branches.size(), [&](std::size_t b) { f(branching_.branches[b]); }, kBandOfBranches);
+    const auto of_index = [&](std::size_t b) { f(branching_.branches[b]); };
+    each_index(branching_.branches.size(), of_index, kBandOfBranches);
 }
 
 /// Mean over +-window along the branch, reaching into the parent at the start and past the tip at the
