@@ -8,7 +8,7 @@
 namespace dstylize {
 namespace {
 
-constexpr float kCuspCosine = 0.5f;
+constexpr float kCuspCosine = 0.5f;  // of 60 degrees
 constexpr int kMostPieces = 64;
 /// Points nearer to each other are one: their directions would be rounding noise.
 constexpr float kSamePoint = 1e-5f;

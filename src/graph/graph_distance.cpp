@@ -1,7 +1,7 @@
 // Mould's stippling flood with integer costs. What lies within the threshold of a stipple, its cell, is reached from it
-// alone, so its nodes may be relaxed in any order as long as they are closed together: in coarse buckets, while the
-// cell is in cache. Nodes beyond wait by (cost, index), since there the first one becomes the next stipple; they cost
-// at most one edge more than the threshold, so that a bucket for each cost will do.
+// alone, so its nodes may be relaxed in any order as long as they are closed together: in a few steps of cost, while
+// the cell is in cache. Nodes beyond wait by (cost, index), since there the first one becomes the next stipple; they
+// cost at most one edge more than the threshold, so that a bucket for each cost will do.
 #include "graph/graph_distance.h"
 
 #include <algorithm>
@@ -85,6 +85,7 @@ class Queue {
     std::size_t size() const { return size_; }
     std::uint32_t operator[](std::size_t k) const { return node_[k]; }
     std::uint32_t& operator[](std::size_t k) { return node_[k]; }
+    std::span<const std::uint32_t> nodes() const { return {node_.data(), size_}; }
     void shrink(std::size_t size) { size_ = size; }
 
   private:
@@ -159,22 +160,21 @@ class Flood {
     /// Expands all that lies within the threshold. Nodes that were reached on a detour are expanded again: their last
     /// distance is the one that an exact order would have given, since all of the cell are closed together.
     void grow_cell() {
-        std::size_t expanded = 0;
+        std::size_t k = 0;
         for (std::uint64_t step = 1, before = 0; step <= kSteps; ++step) {
             const std::uint64_t near = threshold_ * step / kSteps;
             if (step > 1) bring_near(Word(before), Word(near));
-            for (; expanded < near_.size(); ++expanded) spread(near_[expanded], distance(near_[expanded]), Word(near));
+            for (; k < near_.size(); ++k) {
+                if (++expanded_ % kNodesBetweenChecks == 0) work_.check();
+                spread(near_[k], distance(near_[k]), Word(near));
+            }
             before = near;
         }
-        for (std::size_t k = 0; k < near_.size(); ++k) set_distance(near_[k], 0);
+        for (const std::uint32_t n : near_.nodes()) set_distance(n, 0);
         near_.shrink(0);
-        for (std::size_t k = 0; k < later_.size(); ++k)
-            if (const Word d = distance(later_[k]); d != 0) frontier_.push(std::uint32_t(d - threshold_), later_[k]);
+        for (const std::uint32_t n : later_.nodes())
+            if (const Word d = distance(n); d != 0) frontier_.push(std::uint32_t(d - threshold_), n);
         later_.shrink(0);
-        expanded_ += expanded;
-        if (expanded_ < kNodesBetweenChecks) return;
-        expanded_ = 0;
-        work_.check();
     }
 
     /// Sorts out again what waits for later; what has come nearer than `before` has been expanded.

@@ -11,7 +11,6 @@
 #include "render/raster.h"
 
 namespace dstylize {
-
 namespace {
 
 VariableStroke stroke_along(const Centreline& line, const Dendrite& dendrite, const Branch& branch,

@@ -27,12 +27,12 @@ class EveryPlanner : public ::testing::TestWithParam<const Planner* (*)()> {
     }
 };
 
-const Planner* reference_one() { return &reference_planner(); }
-const Planner* bucket_one() { return &bucket_planner(); }
-const Planner* tile_one() { return &tile_planner(); }
-INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner, ::testing::Values(&reference_one));
-INSTANTIATE_TEST_SUITE_P(Bucket, EveryPlanner, ::testing::Values(&bucket_one));
-INSTANTIATE_TEST_SUITE_P(Tiles, EveryPlanner, ::testing::Values(&tile_one));
+const Planner* the_reference() { return &reference_planner(); }
+const Planner* the_buckets() { return &bucket_planner(); }
+const Planner* the_tiles() { return &tile_planner(); }
+INSTANTIATE_TEST_SUITE_P(Reference, EveryPlanner, ::testing::Values(&the_reference));
+INSTANTIATE_TEST_SUITE_P(Bucket, EveryPlanner, ::testing::Values(&the_buckets));
+INSTANTIATE_TEST_SUITE_P(Tiles, EveryPlanner, ::testing::Values(&the_tiles));
 
 /// How a metric compares labels.
 std::pair<std::uint64_t, std::uint64_t> compared(Metric metric, PathLabel l) {
