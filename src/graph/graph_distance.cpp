@@ -18,8 +18,9 @@ namespace dstylize {
 namespace {
 
 constexpr std::uint32_t kLevels = 1023, kDearestEdge = 2 * kLevels;
-/// In how many steps a cell grows to its threshold: with fewer, more nodes are expanded twice; with more, more wait.
-constexpr std::uint64_t kSteps = 4;
+/// A cell grows in steps of cost, at least so many, and none wider than this: in wider ones more nodes are expanded
+/// again and again, in narrower ones more wait.
+constexpr std::uint64_t kLeastSteps = 4, kWidestStep = 2 * kDearestEdge;
 constexpr std::size_t kNodesBetweenChecks = 1 << 16;
 
 std::uint16_t node_cost(float expense) {
@@ -103,6 +104,7 @@ class Flood {
           extent_(request.expense.extent()),
           stride_(std::uint32_t(extent_.x) + 2),
           threshold_(threshold(request)),
+          step_(Word(std::min(threshold_ / kLeastSteps, kWidestStep))),
           node_(std::size_t(stride_) * (std::size_t(extent_.y) + 2)) {
         for (int j = 0; j < extent_.y; ++j)
             for (int i = 0; i < extent_.x; ++i)
@@ -140,7 +142,7 @@ class Flood {
     void start_at(std::uint32_t n) {
         if (distance(n) == 0) return;
         set_distance(n, 0);
-        spread(n, 0, Word(threshold_ / kSteps));
+        spread(n, 0, step_);
     }
 
     /// Lowers the neighbours of a node at that distance: those up to `near` wait for it, the others for later.
@@ -161,20 +163,30 @@ class Flood {
     /// distance is the one that an exact order would have given, since all of the cell are closed together.
     void grow_cell() {
         std::size_t k = 0;
-        for (std::uint64_t step = 1, before = 0; step <= kSteps; ++step) {
-            const std::uint64_t near = threshold_ * step / kSteps;
-            if (step > 1) bring_near(Word(before), Word(near));
+        for (Word near = step_;;) {
             for (; k < near_.size(); ++k) {
                 if (++expanded_ % kNodesBetweenChecks == 0) work_.check();
-                spread(near_[k], distance(near_[k]), Word(near));
+                spread(near_[k], distance(near_[k]), near);
             }
-            before = near;
+            const Word least = least_later(near);
+            if (least > threshold_) break;
+            const Word before = near;
+            near = Word(std::min<std::uint64_t>(least + step_, threshold_));
+            bring_near(before, near);
         }
         for (const std::uint32_t n : near_.nodes()) set_distance(n, 0);
         near_.shrink(0);
         for (const std::uint32_t n : later_.nodes())
             if (const Word d = distance(n); d != 0) frontier_.push(std::uint32_t(d - threshold_), n);
         later_.shrink(0);
+    }
+
+    /// The least distance beyond `near` of what waits for later.
+    Word least_later(Word near) const {
+        Word least = kFar;
+        for (const std::uint32_t n : later_.nodes())
+            if (const Word d = distance(n); d > near) least = std::min(least, d);
+        return least;
     }
 
     /// Sorts out again what waits for later; what has come nearer than `before` has been expanded.
@@ -205,6 +217,7 @@ class Flood {
     const Extent extent_;
     const std::uint32_t stride_;
     const std::uint64_t threshold_;
+    const Word step_;
     std::vector<Word> node_;
     Queue near_, later_;  // of the cell that grows
     Frontier frontier_;
