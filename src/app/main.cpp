@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <new>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/report.h"
@@ -89,6 +90,10 @@ int run_program(std::vector<std::string> words) {
         return fail(error, arguments);
     } catch (const std::bad_alloc&) {
         return fail({ErrorCode::failed, "", "out of memory", "ask for less --detail or a smaller --size"}, arguments);
+    } catch (const std::system_error& error) {  // a thread, say
+        return fail({ErrorCode::failed, "", fmt::format("the system refused ({})", error.what()),
+                     "free memory or close programs"},
+                    arguments);
     } catch (const std::exception& error) {
         return fail({ErrorCode::failed, "", error.what(), "please report this"}, arguments);
     }

@@ -152,9 +152,13 @@ class NewFile {
     int error_ = 0;
 };
 
-/// A file is in place; its name's survival of a power cut hangs on this.
-void sync_folder_of(const std::filesystem::path& target, const std::string& name) {
-    const std::filesystem::path folder = target.parent_path().empty() ? "." : target.parent_path();
+std::filesystem::path folder_of(const std::filesystem::path& target) {
+    return target.has_parent_path() ? target.parent_path() : ".";
+}
+
+/// A file is in place; its name's survival of a power cut hangs on this. It takes no memory, so that what is in place
+/// is not called a failure.
+void sync_folder(const std::filesystem::path& folder, const std::string& name) {
     const Descriptor directory(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (directory && ::fsync(directory.number()) != 0 && errno != EINVAL) cannot_write(name, errno);
 }
@@ -211,21 +215,24 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
     std::error_code ignored;
     std::filesystem::path target = exists ? std::filesystem::canonical(path, ignored) : path;
     if (target.empty()) target = path;
+    const std::filesystem::path folder = folder_of(target);
     {
         NewFile file(target);
         if (const int error = file.put_in_place(bytes, exists ? status.st_mode & 07777 : 0)) cannot_write(name, error);
     }
-    sync_folder_of(target, name);
+    sync_folder(folder, name);
 }
 
 bool create_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    const std::filesystem::path folder = folder_of(path);
+    const std::string name = path.string();
     {
         NewFile file(path);
         const int error = file.create(bytes);
         if (error == EEXIST) return false;
-        if (error) cannot_write(path.string(), error);
+        if (error) cannot_write(name, error);
     }
-    sync_folder_of(path, path.string());
+    sync_folder(folder, name);
     return true;
 }
 

@@ -1,7 +1,6 @@
 #include "pipeline/recipe.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -9,6 +8,7 @@
 #include "core/error.h"
 #include "formats/document_text.h"
 #include "pipeline/control_text.h"
+#include "pipeline/detail_toml.h"
 
 namespace dstylize {
 namespace {
@@ -150,6 +150,7 @@ std::string recipe_toml(const Recipe& recipe) {
         out.insert("roots", roots);
     }
     std::ostringstream text;
+    text.exceptions(std::ios::badbit);  // or it would take in silence what no memory is left for
     text << "# How a drawing was made: `dstylize replay` makes it again, --style takes its style.\n[recipe]\n"
          << out << "\n\n"
          << recipe.style_toml;
@@ -157,14 +158,7 @@ std::string recipe_toml(const Recipe& recipe) {
 }
 
 Recipe parse_recipe(std::string_view text, const std::string& origin) {
-    toml::table tree;
-    try {
-        tree = toml::parse(text, origin);
-    } catch (const toml::parse_error& e) {
-        throw Error(ErrorCode::cannot_read,
-                    fmt::format("{}:{}:{}", origin, e.source().begin.line, e.source().begin.column),
-                    std::string(e.description()), "give a file that dstylize made");
-    }
+    const toml::table tree = parsed_toml(text, origin, ErrorCode::cannot_read, "give a file that dstylize made");
     const toml::table* table = tree["recipe"].as_table();
     if (!table) no_recipe(origin);
     const RecipeReader reader(*table, origin);

@@ -1,17 +1,15 @@
 // Reading a style: TOML to tree, the base style's tree below it (`extends`), settings on top of it,
 // then one walk over the parameters, which takes from the tree and remembers what it took. What is left
 // over in the tree is a misspelt key.
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "pipeline/detail_toml.h"
 #include "pipeline/style_file.h"
 
 namespace dstylize {
@@ -141,13 +139,7 @@ struct Reader final : ParameterVisitor {
 };
 
 toml::table parsed(std::string_view text, const std::string& origin) {
-    try {
-        return toml::parse(text, origin);
-    } catch (const toml::parse_error& e) {
-        throw Error(ErrorCode::bad_usage,
-                    fmt::format("{}:{}:{}", origin, e.source().begin.line, e.source().begin.column),
-                    std::string(e.description()), "correct the style file");
-    }
+    return parsed_toml(text, origin, ErrorCode::bad_usage, "correct the style file");
 }
 
 std::string stage_name(const toml::node& stage) {
@@ -187,10 +179,15 @@ void merge(toml::table& base, toml::table&& over) {
 
 std::string file_text(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf()))
+    std::string text;
+    try {
+        text.assign(std::istreambuf_iterator<char>(in), {});
+    } catch (const std::ios::failure&) {
+        text.clear();
+    }
+    if (text.empty())
         throw Error(ErrorCode::bad_usage, path, "the style file cannot be read", "check the path");
-    return text.str();
+    return text;
 }
 
 std::string style_text(const std::string& name_or_file, const std::filesystem::path& user_folder, std::string& origin) {
@@ -236,8 +233,10 @@ toml::table resolved(toml::table own, const std::string& origin, const std::file
 void apply(toml::table& tree, const Setting& setting) {
     const std::string origin = "--set " + setting.key;
     std::vector<std::string> path;
-    std::istringstream parts(setting.key);
-    for (std::string part; std::getline(parts, part, '.');) path.push_back(part);
+    std::string_view rest = setting.key;
+    for (std::size_t dot = 0; (dot = rest.find('.')) != std::string_view::npos; rest.remove_prefix(dot + 1))
+        path.emplace_back(rest.substr(0, dot));
+    path.emplace_back(rest);
     if (path.size() < 2) throw Error(ErrorCode::bad_usage, origin, "not a parameter", "write section.key=value");
 
     toml::table* at = &tree;
@@ -261,9 +260,9 @@ void apply(toml::table& tree, const Setting& setting) {
             throw Error(ErrorCode::bad_usage, origin, "'" + path[k] + "' is not a table", "write section.key=value");
     }
     try {
-        toml::table value = toml::parse("v = " + setting.value, origin);
+        toml::table value = parsed("v = " + setting.value, origin);
         at->insert_or_assign(path.back(), *value.get("v"));
-    } catch (const toml::parse_error&) {
+    } catch (const Error&) {
         at->insert_or_assign(path.back(), setting.value);
     }
 }

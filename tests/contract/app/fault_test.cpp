@@ -165,8 +165,10 @@ TEST_F(FaultTest, AnAllocationThatFailsIsOneLineAndNoHalfPicture) {
     const long all = calls("memory", words);
     ASSERT_GT(all, 1000);
     const std::string whole = file_bytes(folder_ / "out.png");
-    std::vector<long> moments{1, 2, 3, 5, 8, 13, 21, 34};
+    std::vector<long> moments{1, 2, 3, 5, 8, 13, 21, 34, all - 2, all - 1, all};
     for (int k = 1; k <= 16; ++k) moments.push_back(all * k / 17);
+    // Words, style and recipe: many small ones, before anything large. An odd stride meets all kinds.
+    for (long at = 55; at < all / 10; at += 23) moments.push_back(at);
     for (const long at : moments) {
         SCOPED_TRACE("allocation " + std::to_string(at));
         fs::remove(folder_ / "out.png");
