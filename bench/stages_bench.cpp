@@ -114,7 +114,7 @@ void strokes(benchmark::State& state) {
 }
 void widths(benchmark::State& state) {
     Fields& fields = vine().base.fields;
-    const WidthFields look{fields["tone"], fields["importance"], &fields["lines"]};
+    const WidthFields look{&fields["tone"], fields["importance"], &fields["lines"]};
     const Branching b = branching(vine().grown.dendrite);
     for (auto _ : state) {
         const Widths widths(vine().grown.dendrite, b, vine().style.width, look, fields.u());

@@ -1,6 +1,8 @@
 #pragma once
 #include <cassert>
 #include <cstddef>
+#include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -15,12 +17,38 @@ struct Extent {
     friend bool operator==(const Extent&, const Extent&) = default;
 };
 
+/// std::allocator, but what is made without a value has none yet: fresh memory stays untouched until it is written.
+template <class T>
+struct UnsetAllocator : std::allocator<T> {
+    template <class U>
+    struct rebind {
+        using other = UnsetAllocator<U>;
+    };
+    template <class U>
+    void construct(U* at) {
+        ::new (static_cast<void*>(at)) U;
+    }
+    template <class U, class... Args>
+    void construct(U* at, Args&&... args) {
+        ::new (static_cast<void*>(at)) U(std::forward<Args>(args)...);
+    }
+};
+
 /// Dense samples, x fastest, then y, then z. Owns its memory; a copy is deep.
 template <class T>
 class Grid {
   public:
     Grid() = default;
     explicit Grid(Extent extent, T fill = {}) : extent_(extent), samples_(extent.count(), fill) {}
+
+    /// Samples that have no value yet, for who sets all of them. On several threads, if they are many: most of what a
+    /// large grid costs falls to who first touches its memory.
+    static Grid unset(Extent extent) {
+        Grid out;
+        out.extent_ = extent;
+        out.samples_.resize(extent.count());
+        return out;
+    }
 
     Extent extent() const { return extent_; }
     std::size_t size() const { return samples_.size(); }
@@ -45,7 +73,7 @@ class Grid {
         return (std::size_t(k) * std::size_t(extent_.y) + std::size_t(j)) * std::size_t(extent_.x) + std::size_t(i);
     }
     Extent extent_;
-    std::vector<T> samples_;
+    std::vector<T, UnsetAllocator<T>> samples_;
 };
 
 }  // namespace dstylize

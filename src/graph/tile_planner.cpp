@@ -49,12 +49,11 @@ constexpr std::uint32_t kLargestNarrowStep = 20000;
 
 int thread_count(const Work& work) { return work.threads > 0 ? work.threads : tbb::this_task_arena::max_concurrency(); }
 
-/// Calls body(worker) for each of so many workers, of which some may run after one another.
+/// Calls body(worker) for each of so many workers, of which some may run after one another. They are the caller's
+/// threads: one that does other work now can come later.
 template <class Body>
 void run_workers(int workers, const Body& body) {
-    if (workers == 1) return body(0);
-    tbb::task_arena arena(std::min(workers, tbb::info::default_concurrency()));
-    arena.execute([&] { tbb::parallel_for(0, workers, body, tbb::simple_partitioner()); });
+    tbb::parallel_for(0, workers, body, tbb::simple_partitioner());
 }
 
 /// The highest edge that there can be, and the longest step.

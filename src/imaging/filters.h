@@ -46,4 +46,12 @@ void transform(Grid<float>& field, F f) {
     each_index(field.size(), [&](std::size_t n) { field[n] = f(field[n]); });
 }
 
+/// A grid of f, which may run on several threads, of every sample.
+template <class F>
+Grid<float> transformed(const Grid<float>& field, F f) {
+    Grid<float> out = Grid<float>::unset(field.extent());
+    each_index(field.size(), [&](std::size_t n) { out[n] = f(field[n]); });
+    return out;
+}
+
 }  // namespace dstylize

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "imaging/filters.h"
 #include "importance/detail_field_functions.h"
@@ -33,7 +34,7 @@ void apply_user_map(Fields& fields, Grid<float>& field) {
 
 /// Nothing important lies at the frame: otherwise long strokes run along it.
 void fade_at_border(Fields& fields, Grid<float>& field) {
-    const Grid<float>& at_border = fields["border"];
+    const Grid<float> at_border = border(fields);  // quicker made than kept
     each_index(field.size(), [&](std::size_t n) { field[n] *= 1 - at_border[n]; });
 }
 
@@ -70,8 +71,7 @@ Grid<float> lines(Fields& fields) {
 Grid<float> importance(Fields& fields) {
     const FieldParameters& p = fields.parameters();
     const float total = std::max(1e-6f, p.importance_gradient + p.importance_tone + p.importance_lines);
-    Grid<float> out = fields["gradient"];
-    transform(out, [&](float v) { return v * p.importance_gradient / total; });
+    Grid<float> out = transformed(fields["gradient"], [&](float v) { return v * p.importance_gradient / total; });
     const auto add = [&](std::string_view name, float weight) {
         if (weight == 0) return;
         const Grid<float>& field = fields[name];
@@ -145,11 +145,17 @@ Grid<float> border(Fields& fields) {
     constexpr float kFullWithin_u = 3;
     const Extent e = fields.extent();
     const float inner = kFullWithin_u * fields.u(), outer = fields.parameters().border_width * fields.u();
-    Grid<float> out(e);
+    std::vector<float> at_distance;  // from the frame; further inside 0
+    do at_distance.push_back(1 - smoothstep(inner, std::max(outer, inner + 1), float(at_distance.size())));
+    while (at_distance.back() > 0);
+    const int last = int(at_distance.size()) - 1;
+    Grid<float> out = Grid<float>::unset(e);
     tbb::parallel_for(0, e.y, [&](int j) {
-        for (int i = 0; i < e.x; ++i)
-            out(i, j) =
-                1 - smoothstep(inner, std::max(outer, inner + 1), float(std::min({i, e.x - 1 - i, j, e.y - 1 - j})));
+        const int from_row = std::min({j, e.y - 1 - j, last});
+        float* const row = out.row(j);
+        std::fill(row, row + e.x, at_distance[std::size_t(from_row)]);
+        for (int i = 0; i < std::min(from_row, (e.x + 1) / 2); ++i)
+            row[i] = row[e.x - 1 - i] = at_distance[std::size_t(i)];
     });
     return out;
 }

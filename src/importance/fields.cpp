@@ -53,6 +53,10 @@ const Grid<float>& Fields::operator[](std::string_view name) {
 
 void Fields::replace(std::string_view name, Grid<float> field) { cache_[row_of(name)] = std::move(field); }
 
+void Fields::release(std::span<const std::string_view> names) {
+    for (const std::string_view name : names) cache_[row_of(name)].reset();
+}
+
 void Fields::share(const Fields& other) {
     for (const std::string_view name :
          {"luma", "lightness", "darkness", "tone", "gradient", "lines", "importance", "features"})

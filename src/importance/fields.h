@@ -91,6 +91,9 @@ class Fields {
     /// Puts another field in the place of the one called `name`: `lacking` changes as a drawing grows.
     void replace(std::string_view name, Grid<float> field);
 
+    /// Forgets those fields; who asks for one gets it anew.
+    void release(std::span<const std::string_view> names);
+
     /// Takes over what `other`, the same picture with the same parameters and another seed, has computed so far
     /// of the fields that no chance enters.
     void share(const Fields& other);

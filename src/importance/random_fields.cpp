@@ -1,5 +1,6 @@
 // Noise fields. They live on a grid fixed to the picture, finer than most lattices, and every lattice
 // samples that one grid: half the detail is then an honest preview of the full one.
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -17,12 +18,20 @@ Grid<float> white_noise(Fields& fields) {
     const Noise noise(fields.seed(), Purpose::white_noise);
     const Extent e = fields.extent();
     const float per_node = kCellsPer_u / fields.u();
-    Grid<float> out(e);
-    tbb::parallel_for(0, e.y, [&](int j) {
-        for (int i = 0; i < e.x; ++i) {
-            const auto cx = std::uint64_t((float(i) + 0.5f) * per_node),
-                       cy = std::uint64_t((float(j) + 0.5f) * per_node);
-            out(i, j) = noise.unit(cy << 32 | cx);
+    const auto cell = [per_node](int node) { return std::uint64_t((float(node) + 0.5f) * per_node); };
+    std::vector<std::uint64_t> column;
+    for (int i = 0; i < e.x; ++i) column.push_back(cell(i));
+    Grid<float> out = Grid<float>::unset(e);
+    // Where nodes are finer than cells, several have the same one.
+    tbb::parallel_for(tbb::blocked_range<int>(0, e.y), [&](const tbb::blocked_range<int>& rows) {
+        for (int j = rows.begin(); j < rows.end(); ++j) {
+            float* const row = out.row(j);
+            if (j > rows.begin() && cell(j) == cell(j - 1)) {
+                std::copy_n(out.row(j - 1), e.x, row);
+                continue;
+            }
+            for (std::size_t i = 0; i < column.size(); ++i)
+                row[i] = i > 0 && column[i] == column[i - 1] ? row[i - 1] : noise.unit(cell(j) << 32 | column[i]);
         }
     });
     return out;
@@ -57,7 +66,7 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
     };
     std::vector<Between> column;
     for (int i = 0; i < e.x; ++i) column.push_back(between(i, cells.x));
-    Grid<float> out(e);
+    Grid<float> out = Grid<float>::unset(e);
     tbb::parallel_for(0, e.y, [&](int j) {
         std::vector<float> row(std::size_t(cells.x));
         const Between at = between(j, cells.y);

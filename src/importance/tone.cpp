@@ -9,6 +9,12 @@
 namespace dstylize::field {
 namespace {
 
+/// Mixed with the ranks of its samples.
+void equalise(Grid<float>& tone, float share) {
+    const Grid<float> ranks = rank(tone);
+    each_index(tone.size(), [&](std::size_t n) { tone[n] = (1 - share) * tone[n] + share * ranks[n]; });
+}
+
 /// tone - share * its wide blur, stretched to [0, 1] again.
 void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
     const Grid<float> around = blurred(tone, sigma);
@@ -27,31 +33,33 @@ void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
 Grid<float> luma(Fields& fields) { return fields.source_luma(); }
 
 Grid<float> lightness(Fields& fields) {
-    Grid<float> out = fields.source_luma();
-    const auto [lo, hi] = percentiles(out, fields.parameters().stretch_low, fields.parameters().stretch_high);
+    const Grid<float>& luma = fields.source_luma();
+    const auto [lo, hi] = percentiles(luma, fields.parameters().stretch_low, fields.parameters().stretch_high);
     // A picture of one colour has nothing to stretch.
-    if (hi - lo < 1e-4f) return out;
-    transform(out, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
-    return out;
+    if (hi - lo < 1e-4f) return luma;
+    return transformed(luma, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
 }
 
 Grid<float> darkness(Fields& fields) {
-    Grid<float> out = fields["lightness"];
-    transform(out, [](float v) { return 1 - v; });
-    return out;
+    return transformed(fields["lightness"], [](float v) { return 1 - v; });
 }
 
 Grid<float> tone(Fields& fields) {
     const FieldParameters& p = fields.parameters();
-    Grid<float> out = fields[p.bright ? "lightness" : "darkness"];
-    const float equalise = p.tone_equalise;
-    if (equalise > 0) {
-        const Grid<float> ranks = rank(out);
-        each_index(out.size(), [&](std::size_t n) { out[n] = (1 - equalise) * out[n] + equalise * ranks[n]; });
-    }
-    if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
+    const auto drawn = [&p](float lightness) { return p.bright ? lightness : 1 - lightness; };
     // Paper stays really white and blacks become really black; otherwise mid-grey photos stay grey.
-    transform(out, [&](float v) { return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f); });
+    const auto clean = [&p](float v) {
+        return std::clamp((v - p.tone_white) / (p.tone_black - p.tone_white), 0.0f, 1.0f);
+    };
+    Grid<float> out;
+    if (p.tone_equalise > 0 || p.tone_local > 0) {
+        out = transformed(fields["lightness"], drawn);
+        if (p.tone_equalise > 0) equalise(out, p.tone_equalise);
+        if (p.tone_local > 0) take_away_surroundings(out, p.tone_local, p.tone_local_scale * fields.u());
+        transform(out, clean);
+    } else {
+        out = transformed(fields["lightness"], [&](float v) { return clean(drawn(v)); });
+    }
     if (p.tone_contrast > 0)
         transform(out, [&](float v) { return v + p.tone_contrast * (smoothstep(0.08f, 0.82f, v) - v); });
     if (const auto& map = fields.maps().importance; map && !fields.maps().importance_replaces)

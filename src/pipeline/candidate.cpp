@@ -110,8 +110,8 @@ Candidate candidate(PreparedPicture base, const Style& style, const Controls& co
         transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
     }
     Widths widths(dendrite, c.branching, style.width,
-                  {fields["wanted"], fields["importance"], style.width.wants_ink() ? &fields["lines"] : nullptr,
-                   style.width.field > 0 ? &width_sum : nullptr, &c.grown.node_cost,
+                  {style.width.wants_ink() || style.width.trunk > 0 ? &fields["wanted"] : nullptr, fields["importance"], style.width.wants_ink() ? &fields["lines"] : nullptr,
+                   style.width.field > 0 ? &width_sum : nullptr, style.width.path > 0 ? &c.grown.node_cost : nullptr,
                    half_width.empty() ? nullptr : &half_width, style.width.swing > 0 ? &fields["guided"] : nullptr},
                   u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, c.lines, dendrite, c.branching, u, work);

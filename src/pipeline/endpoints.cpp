@@ -27,13 +27,14 @@ Grid<std::uint8_t> allowed(const Fields& fields, const EndpointParameters& p, co
 }
 
 Grid<float> endpoint_density(Fields& fields, const EndpointParameters& p) {
-    Grid<float> density =
-        p.density_blur > 0 ? blurred(fields[p.density], p.density_blur * fields.u()) : fields[p.density];
-    transform(density, [&](float v) {
+    const auto density = [&](float v) {
         const float toe = p.density_toe > 0 ? smoothstep(-0.5f * p.density_toe, p.density_toe, v) : 1;
-        return std::pow(std::clamp(v, 0.0f, 1.0f), p.density_exponent) * toe;
-    });
-    return density;
+        const float share = std::clamp(v, 0.0f, 1.0f);
+        return (p.density_exponent == 1 ? share : std::pow(share, p.density_exponent)) * toe;
+    };
+    const Grid<float>& field = fields[p.density];
+    if (p.density_blur > 0) return transformed(blurred(field, p.density_blur * fields.u()), density);
+    return transformed(field, density);
 }
 
 /// Spacings of a batch: they fall geometrically to the last one's.

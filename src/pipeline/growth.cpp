@@ -2,6 +2,9 @@
 // is the dendrite and, when the style asks for it, the field `lacking`.
 #include "pipeline/growth.h"
 
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,7 +34,8 @@ struct Round {
 
 Grid<float> node_cost(Fields& fields, const Round& round) {
     const StageParameters& stage = round.stage;
-    Grid<float> cost(fields.extent(), stage.cost_constant);
+    Grid<float> cost = Grid<float>::unset(fields.extent());
+    each_index(cost.size(), [&](std::size_t n) { cost[n] = stage.cost_constant; });
     for (const auto& [name, weight] : stage.cost) {
         const Grid<float>& field = fields[name];
         each_index(cost.size(), [&, share = weight](std::size_t n) { cost[n] += share * field[n]; });
@@ -201,6 +205,28 @@ void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t fir
     }
 }
 
+/// Calls both beside one another: the first is often one thread's work. On a huge lattice, which has no memory to spare,
+/// one after the other.
+template <class Place, class FindPaths>
+void both(const Place& place, const FindPaths& find_paths, Extent lattice) {
+    constexpr std::size_t kHuge = std::size_t{1} << 26;  // nodes
+    if (lattice.count() > kHuge) {
+        place();
+        find_paths();
+    } else {
+        // Isolated, the one does not wait for parts of the other.
+        tbb::parallel_invoke([&] { tbb::this_task_arena::isolate(place); }, find_paths);
+    }
+}
+
+/// What the last weights were made of, large beside all else on a fine lattice. Strokes seldom ask for it again.
+void release_intermediates(Fields& fields) {
+    constexpr std::size_t kLarge = std::size_t{1} << 22;  // nodes
+    constexpr std::string_view kNames[] = {"luma",     "lightness",   "darkness",
+                                           "gradient", "white_noise", "smooth_noise"};
+    if (fields.extent().count() > kLarge) fields.release(kNames);
+}
+
 }  // namespace
 
 Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, Extent picture_px,
@@ -209,7 +235,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
     Growth growth(base.lattice);
     Grown out;
     const auto stages = double(style.stages.size());
-    out.node_cost = Grid<float>(fields.extent());
+    if (style.width.path > 0) out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
         const StageParameters& stage = style.stages[s];
         out.endpoints.push_back(0);
@@ -228,20 +254,26 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 fields.replace("lacking", std::move(share));
             }
             const WeightedLattice graph = weights(fields, base, round, directional, work);
+            if (s + 1 == style.stages.size() && batch + 1 == stage.batches) release_intermediates(fields);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
                     growth.add_root(node, owner++);
             }
-            std::vector<NodeId> endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
-                                                  : placed_endpoints(fields, stage.endpoints,
-                                                                     {base.passable, graph, growth.dendrite(),
-                                                                      std::uint32_t(s), batch, stage.batches},
-                                                                     controls.seed, work);
             work.report(stage.name + ": paths", (0.4 + done) / (stages + 1));
+            std::vector<NodeId> endpoints;
+            Plan plan;
+            const auto place = [&] {
+                const EndpointView view{base.passable, graph, growth.dendrite(), std::uint32_t(s),
+                                        batch,         stage.batches};
+                endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
+                                  : placed_endpoints(fields, stage.endpoints, view, controls.seed, work);
+            };
             const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
-            const Plan plan =
-                tile_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+            const auto find_paths = [&] {
+                plan = tile_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
+            };
+            both(place, find_paths, fields.extent());
             if (stage.endpoints.close_loops > 0 && !given) {
                 const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
                 endpoints.insert(endpoints.end(), closings.begin(), closings.end());
@@ -251,7 +283,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
             const std::size_t before = growth.dendrite().size();
             out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),
                                           given ? Growth::Accept{} : path_filter(fields, base.lattice, round, lacking));
-            record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
+            if (!out.node_cost.empty()) record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
         }
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));

@@ -1,10 +1,14 @@
 // Connected parts of the passable nodes: on a regular lattice run by run, else node by node.
+#include <algorithm>
 #include <numeric>
 
+#include "imaging/bands.h"
 #include "pipeline/roots.h"
 
 namespace dstylize {
 namespace {
+
+constexpr std::size_t kRowsAtOnce = 64;
 
 /// Passable nodes side by side in a row.
 struct Run {
@@ -58,7 +62,7 @@ void join_rows(const std::vector<Run>& runs, int slant, RunSets& sets) {
 }
 
 PassableParts parts_by_runs(const WeightedLattice& graph) {
-    PassableParts out{Grid<std::uint32_t>(graph.lattice.extent(), PassableParts::kNone), {}};
+    PassableParts out{Grid<std::uint32_t>::unset(graph.lattice.extent()), {}, {}};
     const std::vector<Run> runs = runs_of(graph);
     RunSets sets(runs.size());
     // A knight's move never joins what the other steps do not.
@@ -70,16 +74,26 @@ PassableParts parts_by_runs(const WeightedLattice& graph) {
         if (root == r) {
             part[r] = std::uint32_t(out.size.size());
             out.size.push_back(0);
+            out.box.emplace_back();
         }
         part[r] = part[root];
+        out.box[part[r]].add(run.first, run.last, run.row);
         out.size[part[r]] += std::uint32_t(run.last - run.first + 1);
-        std::fill(out.part.row(run.row) + run.first, out.part.row(run.row) + run.last + 1, part[r]);
     }
+    const auto fill_row = [&](std::size_t j) {
+        std::uint32_t* const row = out.part.row(int(j));
+        std::fill_n(row, graph.lattice.extent().x, PassableParts::kNone);
+        const auto before = [](const Run& run, int of_row) { return run.row < of_row; };
+        for (auto run = std::lower_bound(runs.begin(), runs.end(), int(j), before);
+             run != runs.end() && run->row == int(j); ++run)
+            std::fill(row + run->first, row + run->last + 1, part[std::size_t(run - runs.begin())]);
+    };
+    each_index(std::size_t(graph.lattice.extent().y), fill_row, kRowsAtOnce);
     return out;
 }
 
 PassableParts parts_by_flood(const WeightedLattice& graph, const Adjacency& listed) {
-    PassableParts out{Grid<std::uint32_t>(graph.lattice.extent(), PassableParts::kNone), {}};
+    PassableParts out{Grid<std::uint32_t>(graph.lattice.extent(), PassableParts::kNone), {}, {}};
     std::vector<NodeId> open;
     const auto reach = [&](NodeId next, std::uint32_t part) {
         if (!graph.passable(next) || out.part[index(next)] != PassableParts::kNone) return;
@@ -91,10 +105,12 @@ PassableParts parts_by_flood(const WeightedLattice& graph, const Adjacency& list
         reach(NodeId{n}, part);
         if (open.empty()) continue;
         out.size.push_back(0);
+        out.box.emplace_back();
         while (!open.empty()) {
             const NodeId node = open.back();
             open.pop_back();
             ++out.size[part];
+            out.box[part].add(graph.lattice.column(node), graph.lattice.column(node), graph.lattice.row(node));
             for (std::uint32_t edge = listed.first[index(node)]; edge < listed.first[index(node) + 1]; ++edge)
                 reach(NodeId{listed.to[edge]}, part);
         }

@@ -12,20 +12,33 @@
 namespace dstylize {
 namespace {
 
-Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
-                                  Fields& fields) {
-    constexpr float kHalf = 0.5f, kAlmostNothing = 0.5f / 255, kMostMargin = 0.1f;  // of the short side
-    const Extent lattice = fields.extent();
+/// 1 where the picture is not transparent.
+Grid<std::uint8_t> opaque_nodes(const Picture& picture, Extent lattice) {
+    constexpr float kHalf = 0.5f, kAlmostNothing = 0.5f / 255;
+    if (std::all_of(picture.begin(), picture.end(), [](Rgba8 p) { return p.a == 255; }))
+        return Grid<std::uint8_t>(lattice, 1);
     const Grid<float> alpha = resized(alpha_plane(picture), lattice);
     // An evenly translucent picture is a picture, too: what counts is how opaque a place is beside the others.
     const float least_alpha = std::max(kHalf * *std::max_element(alpha.begin(), alpha.end()), kAlmostNothing);
-    const Grid<std::uint8_t>* mask = controls.mask ? &fields.shape_interior() : nullptr;
+    Grid<std::uint8_t> out(lattice);
+    each_index(out.size(), [&](std::size_t n) { out[n] = alpha[n] >= least_alpha; });
+    return out;
+}
+
+Grid<std::uint8_t> passable_nodes(const Picture& picture, const Style& style, const Controls& controls,
+                                  Fields& fields) {
+    constexpr float kMostMargin = 0.1f;  // of the short side
+    const Extent lattice = fields.extent();
     const int short_side = std::min(lattice.x, lattice.y);
     const int margin = int(std::min(style.lattice.margin * fields.u(), kMostMargin * float(short_side)));
-    Grid<std::uint8_t> out(lattice);
-    for (int j = margin; j < lattice.y - margin; ++j)
-        for (int i = margin; i < lattice.x - margin; ++i)
-            out(i, j) = alpha(i, j) >= least_alpha && (!mask || (*mask)(i, j));
+    Grid<std::uint8_t> out = opaque_nodes(picture, lattice);
+    if (const Grid<std::uint8_t>* mask = controls.mask ? &fields.shape_interior() : nullptr)
+        each_index(out.size(), [&](std::size_t n) { out[n] = out[n] && (*mask)[n]; });
+    for (int j = 0; j < lattice.y; ++j) {
+        const bool inside = j >= margin && j < lattice.y - margin;
+        std::fill_n(out.row(j), inside ? margin : lattice.x, std::uint8_t{0});
+        std::fill_n(out.row(j) + lattice.x - margin, margin, std::uint8_t{0});
+    }
     return out;
 }
 

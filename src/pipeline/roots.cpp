@@ -13,17 +13,6 @@ namespace {
 
 using Place = RootParameters::Place;
 
-/// Bounds of one connected part, in nodes.
-struct Box {
-    int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-    void add(int i, int j) {
-        left = std::min(left, i);
-        top = std::min(top, j);
-        right = std::max(right, i);
-        bottom = std::max(bottom, j);
-    }
-};
-
 NodeId cheapest_near(const WeightedLattice& graph, const PassableParts& parts, NodeId start, float radius) {
     const Lattice& lattice = graph.lattice;
     const int column = lattice.column(start), row = lattice.row(start), reach = int(radius);
@@ -55,13 +44,17 @@ class PlaceScore {
           interest_(blurred(fields[place == Place::darkest ? "darkness" : std::string_view(parameters.interest)],
                             (place == Place::darkest ? 6 : 3) * u_)) {}
 
-    float operator()(const Box& box, int i, int j) const {
+    /// Whether any node of that row can be one.
+    bool row_counts(const PassableParts::Box& box, int j) const {
         constexpr float kBand_u = 3;
-        if (place_ == Place::bottom || place_ == Place::top) {
-            const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
-            const float wanted = std::min(inset_, (float(box.bottom - box.top) + 1) / 4);
-            if (std::abs(from_edge - wanted) > std::max(kBand_u * u_, 1.0f)) return kNever;
-        }
+        if (place_ != Place::bottom && place_ != Place::top) return true;
+        const float from_edge = place_ == Place::bottom ? float(box.bottom - j) : float(j - box.top);
+        const float wanted = std::min(inset_, (float(box.bottom - box.top) + 1) / 4);
+        return std::abs(from_edge - wanted) <= std::max(kBand_u * u_, 1.0f);
+    }
+
+    float operator()(const PassableParts::Box& box, int i, int j) const {
+        if (!row_counts(box, j)) return kNever;
         const float width = float(box.right - box.left) + 1, height = float(box.bottom - box.top) + 1;
         const float x = 2 * (float(i - box.left) + 0.5f) / width - 1;  // -1 … 1 across the part
         const float y = 2 * (float(j - box.top) + 0.5f) / height - 1;
@@ -84,23 +77,24 @@ class PlaceScore {
 std::vector<NodeId> best_of_parts(Fields& fields, const WeightedLattice& graph, const PassableParts& parts,
                                   const RootParameters& parameters, Place place) {
     const Extent e = graph.lattice.extent();
-    std::vector<Box> boxes(parts.size.size());
-    for (int j = 0; j < e.y; ++j)
-        for (int i = 0; i < e.x; ++i)
-            if (const std::uint32_t part = parts.part(i, j); part != PassableParts::kNone) boxes[part].add(i, j);
     const PlaceScore score(fields, parameters, place);
+    std::vector<std::uint8_t> row_counts(std::size_t(e.y), 0);
+    for (const PassableParts::Box& box : parts.box)
+        for (int j = box.top; j <= box.bottom; ++j) row_counts[std::size_t(j)] |= score.row_counts(box, j);
     std::vector<NodeId> best(parts.size.size(), kNoNode);
     std::vector<float> best_score(parts.size.size(), 2 * PlaceScore::kNever);
-    for (int j = 0; j < e.y; ++j)
+    for (int j = 0; j < e.y; ++j) {
+        if (!row_counts[std::size_t(j)]) continue;
         for (int i = 0; i < e.x; ++i) {
             const std::uint32_t part = parts.part(i, j);
             if (part == PassableParts::kNone) continue;
-            const float s = score(boxes[part], i, j);
+            const float s = score(parts.box[part], i, j);
             if (s > best_score[part]) {
                 best_score[part] = s;
                 best[part] = graph.lattice.at(i, j);
             }
         }
+    }
     return best;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "pipeline/controls.h"
@@ -9,8 +10,19 @@ namespace dstylize {
 /// first nodes; kNone where nothing may grow.
 struct PassableParts {
     static constexpr std::uint32_t kNone = 0xffffffffu;
+    /// Bounds of a part, in nodes.
+    struct Box {
+        int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+        void add(int first, int last, int row) {
+            left = std::min(left, first);
+            top = std::min(top, row);
+            right = std::max(right, last);
+            bottom = std::max(bottom, row);
+        }
+    };
     Grid<std::uint32_t> part;
     std::vector<std::uint32_t> size;  ///< nodes in each
+    std::vector<Box> box;
 };
 PassableParts passable_parts(const WeightedLattice& graph);
 

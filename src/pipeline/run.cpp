@@ -182,17 +182,26 @@ class Run {
         double bytes;
         const char* remedy;
     };
+    /// The picture, fields, labels and queues; with directions also a height for each edge, on irregular lattices a list
+    /// of edges.
+    double bytes_per_node() const {
+        constexpr double kOfWeights = 42, kOfDirections = 130, kOfLists = 330;
+        if (style_.lattice.kind == LatticeParameters::Kind::scattered) return kOfLists;
+        const auto has_directions = [](const StageParameters& s) {
+            return s.along_flow > 0 || s.down != 0 || s.up != 0 || s.wind != 0;
+        };
+        return std::any_of(style_.stages.begin(), style_.stages.end(), has_directions) ? kOfDirections : kOfWeights;
+    }
     /// The greatest of what the steps of a run hold; measured, and rounded up.
     Need most_memory() const {
-        // Raster, shared memory and encoder per output pixel, in a place also its ground and cover at that size;
-        // fields, labels and edge heights per node.
-        constexpr double kBytesPerPixel = 16, kBytesPerPlacedPixel = 24, kBytesPerNode = 180;
+        // Raster, shared memory and encoder per output pixel, in a place also its ground and cover at that size.
+        constexpr double kBytesPerPixel = 16, kBytesPerPlacedPixel = 24;
         const SceneMemory scene = request_.place ? scene_memory(ground_.extent(), style_.scene) : SceneMemory{};
         const double pixels = request_.show.empty() && rasters() ? double(frame_.size_px.count()) : 0;
         const double painting = pixels * (request_.place ? kBytesPerPlacedPixel : kBytesPerPixel) + scene.kept;
         const std::array needs{
             Need{painting, "ask for a smaller --size, or raise --max-memory"},
-            Need{double(lattice_.count()) * kBytesPerNode, "ask for less --detail, or raise --max-memory"},
+            Need{double(lattice_.count()) * bytes_per_node(), "ask for less --detail, or raise --max-memory"},
             Need{scene.peak, "give a smaller background or --set scene.painted=0, or raise --max-memory"}};
         return *std::max_element(needs.begin(), needs.end(),
                                  [](const Need& a, const Need& b) { return a.bytes < b.bytes; });

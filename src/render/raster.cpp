@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "imaging/filters.h"
 #include "render/detail_capsule.h"
@@ -49,10 +50,10 @@ class TilePainter {
         plane_.width = width_ * k;
         plane_.height = height_ * k;
         plane_.origin = {float(x0_ * k), float(y0_ * k)};
-        plane_.coverage.assign(samples, 0.0f);
+        plane_.coverage.resize(samples);
         plane_.colour.resize(samples);
-        plane_.dirty = {};
-        ink_.assign(samples, {});
+        ink_.resize(samples);
+        inked_.assign(std::size_t(plane_.height), {});
         paint_items(drawing_.runs[std::size_t(tile_y) * std::size_t(drawing_.tiles.x) + std::size_t(tile_x)]);
         lay_on_paper();
     }
@@ -73,12 +74,26 @@ class TilePainter {
         }
     }
 
+    /// The samples of a row between which all ink lies.
+    struct Span {
+        int first = std::numeric_limits<int>::max(), end = 0;
+        void add(int x) {
+            first = std::min(first, x);
+            end = x + 1;
+        }
+        void add(const Span& other) {
+            first = std::min(first, other.first);
+            end = std::max(end, other.end);
+        }
+    };
+
     /// Lays the plane's coverage over the ink and clears it.
     void composite() {
         for (int y = plane_.dirty.y0; y < plane_.dirty.y1; ++y) {
             float* coverage = plane_.coverage_row(y);
             const std::uint32_t* winner = plane_.colour_row(y);
-            Premultiplied* ink = ink_.data() + std::size_t(y) * std::size_t(plane_.width);
+            Premultiplied* ink = ink_row(y);
+            Span span;
             for (int x = plane_.dirty.x0; x < plane_.dirty.x1; ++x) {
                 if (coverage[x] == 0) continue;
                 const Rgba c = drawing_.palette[winner[x]];
@@ -87,9 +102,21 @@ class TilePainter {
                 under = {c.r * a + under.r * rest, c.g * a + under.g * rest, c.b * a + under.b * rest,
                          a + under.a * rest};
                 coverage[x] = 0;
+                span.add(x);
             }
+            inked_[std::size_t(y)].add(span);
         }
         plane_.dirty = {};
+    }
+
+    Premultiplied* ink_row(int y) { return ink_.data() + std::size_t(y) * std::size_t(plane_.width); }
+
+    /// The pixels of a row between which all ink lies.
+    Span inked_pixels(int y) const {
+        const int k = drawing_.samples_per_pixel;
+        Span out;
+        for (int j = y * k; j < (y + 1) * k; ++j) out.add(inked_[std::size_t(j)]);
+        return {out.first / k, (out.end + k - 1) / k};
     }
 
     Premultiplied mean_ink(int x, int y) const {
@@ -116,13 +143,19 @@ class TilePainter {
     }
 
     void lay_on_paper() {
-        const bool textured = paper_.grain > 0 && paper_.colour.a > 0;
+        const bool textured = paper_.grain > 0 && paper_.colour.a > 0, plain = !textured && !paper_.picture;
+        const Rgba p = paper_.colour;
+        const Rgba8 bare = straight({std::clamp(p.r, 0.0f, 1.0f) * p.a, std::clamp(p.g, 0.0f, 1.0f) * p.a,
+                                     std::clamp(p.b, 0.0f, 1.0f) * p.a, p.a});
         const float* grain = textured ? grain_.block(x0_, y0_, width_, height_).data() : nullptr;
         for (int y = 0; y < height_; ++y) {
             Rgba8* row = out_.row(y0_ + y) + x0_;
-            for (int x = 0; x < width_; ++x) {
+            const Span inked = inked_pixels(y);
+            if (plain) std::fill(row, row + width_, bare);
+            for (int x = plain ? inked.first : 0; x < (plain ? inked.end : width_); ++x) {
                 const float light = textured ? 1 + paper_.grain * *grain++ : 1.0f;
-                const Premultiplied ink = mean_ink(x, y);
+                const bool has_ink = x >= inked.first && x < inked.end;
+                const Premultiplied ink = has_ink ? mean_ink(x, y) : Premultiplied{};
                 const Rgba paper = ground(x0_ + x, y0_ + y);
                 const float rest = (1 - ink.a) * paper.a;
                 const auto laid = [&](float colour, float ground) {
@@ -132,6 +165,9 @@ class TilePainter {
                 row[x] = straight({laid(ink.r, paper.r), laid(ink.g, paper.g), laid(ink.b, paper.b), ink.a + rest});
             }
         }
+        for (int y = 0; y < plane_.height; ++y)
+            if (const Span span = inked_[std::size_t(y)]; span.first < span.end)
+                std::fill(ink_row(y) + span.first, ink_row(y) + span.end, Premultiplied{});
     }
 
     /// A premultiplied channel of ink as it shows on the ground.
@@ -147,8 +183,9 @@ class TilePainter {
     Picture& out_;
     Grain grain_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;  ///< the tile's pixels
-    CoveragePlane plane_;
-    std::vector<Premultiplied> ink_;
+    CoveragePlane plane_;             ///< bare between two composites
+    std::vector<Premultiplied> ink_;  ///< bare between two tiles
+    std::vector<Span> inked_;         ///< of each row of samples
     std::vector<float> scratch_;
 };
 

@@ -76,7 +76,7 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
     const WidthParameters& p = parameters_;
     if (p.wants_ink()) {
         constexpr float kMostInk = 0.92f;
-        target_ink_ = blurred(fields.tone, u);
+        target_ink_ = blurred(*fields.tone, u);
         each_index(target_ink_.size(), [&](std::size_t n) {
             target_ink_[n] = std::min(kMostInk, p.tone_most * std::pow(std::max(0.0f, target_ink_[n]), p.tone_gamma) +
                                                     p.tone_lines * (*fields.lines)[n]);
@@ -85,7 +85,7 @@ Widths::Widths(const Dendrite& dendrite, const Branching& branching, const Width
 
     constexpr float kDensityWindow_u = 7, kImportanceInk = 0.1f, kLeastDensity = 0.02f;
     raw_.resize(dendrite.size());
-    if (p.path > 0 && fields.node_cost) follow_paths();
+    if (p.path > 0) follow_paths();
     Grid<float> density, wanted;
     if (p.tone > 0) {
         density = line_density(dendrite, target_ink_.extent(), kDensityWindow_u * u);
@@ -224,7 +224,7 @@ std::vector<float> Widths::trunk_widths() const {
     constexpr float kToneWindow_u = 5;
     const WidthParameters& p = parameters_;
     if (p.trunk <= 0) return {};
-    const Grid<float> tone = blurred(fields_.tone, kToneWindow_u * u_);
+    const Grid<float> tone = blurred(*fields_.tone, kToneWindow_u * u_);
     std::vector<float> out(dendrite_.size());
     each_index(out.size(), [&](std::size_t v) {
         const float share = std::pow(float(branching_.tips[v]) / float(branching_.tips[0]), p.branch_exponent);

@@ -38,7 +38,8 @@ struct WidthParameters {
 
 /// The fields that widths look at, at the lattice's extent, values in [0, 1].
 struct WidthFields {
-    const Grid<float>&tone, &importance;
+    const Grid<float>* tone;  ///< needed when ink is wanted (WidthParameters::wants_ink) or for a trunk
+    const Grid<float>& importance;
     const Grid<float>* lines = nullptr;       ///< needed when ink is wanted (WidthParameters::wants_ink)
     const Grid<float>* sum = nullptr;         ///< of WidthParameters::fields; needed when `field` weighs
     const Grid<float>* node_cost = nullptr;   ///< per unit of length, any scale; needed when `path` weighs

@@ -76,7 +76,7 @@ struct Drawn {
     Branching b = branching(dendrite);
     Grid<float> tone{Extent{80, 80}, 0.6f}, lines{Extent{80, 80}, 0.0f}, importance{Extent{80, 80}, 0.5f};
     Widths widths(const WidthParameters& p, float u = 1) const {
-        return Widths(dendrite, b, p, {tone, importance, &lines}, u);
+        return Widths(dendrite, b, p, {&tone, importance, &lines}, u);
     }
 };
 

@@ -49,7 +49,7 @@ struct ByRule {
     std::vector<float> widths(WidthParameters p, const Grid<float>& sum) const {
         p.tone = 0;
         p.trunk = p.window = p.tip = 0;
-        return Widths(tree.dendrite, b, p, {half, half, &half, &sum, &half}, 1).widths();
+        return Widths(tree.dendrite, b, p, {&half, half, &half, &sum, &half}, 1).widths();
     }
 };
 
