@@ -1,9 +1,9 @@
 #include "app/progress.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <stop_token>
+
+#include "app/progress_text.h"
 
 namespace dstylize::app {
 namespace {
@@ -11,19 +11,10 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto kSilentFor = 1s;
 constexpr auto kRedraw = 200ms;
-constexpr std::size_t kLongestStep = 50;                         // of a line that must not wrap
-constexpr double kShareThatTells = 0.05, kSecondsThatTell = 10;  // either is enough
 constexpr const char* kClearLine = "\r\033[K";
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-std::string time_text(double seconds) {
-    constexpr double kMinute_s = 60, kHour_s = 3600;
-    if (seconds < 2 * kMinute_s) return fmt::format("{:.0f} s", seconds);
-    if (seconds < 2 * kHour_s) return fmt::format("{:.0f} min", seconds / kMinute_s);
-    return fmt::format("{:.0f} h", seconds / kHour_s);
 }
 
 }  // namespace
@@ -39,9 +30,7 @@ void Progress::begin(std::string_view step, double share_done) {
     end_step();
     steps_.emplace_back(step, 0.0);
     share_done_ = share_done;
-    const double elapsed = seconds_since(start_);
-    const bool tells = share_done > kShareThatTells || (share_done > 0 && elapsed > kSecondsThatTell);
-    left_at_step_start_ = tells ? elapsed / share_done - elapsed : 0;
+    left_at_step_start_ = seconds_left(share_done, seconds_since(start_));
 }
 
 void Progress::end_step() {
@@ -70,11 +59,8 @@ void Progress::keep_drawing(const std::stop_token& stop) {
     wake_.wait_for(lock, stop, kSilentFor, [] { return false; });
     while (!stop.stop_requested()) {
         if (!steps_.empty()) {
-            std::string line = fmt::format("{}{} · {:.0f} %", kClearLine, steps_.back().first.substr(0, kLongestStep),
-                                           100 * share_done_);
             const double left = left_at_step_start_ - seconds_since(step_start_);
-            if (left >= 1) line += " · " + time_text(left) + " left";
-            std::fputs(line.c_str(), stderr);
+            std::fputs((kClearLine + progress_text(steps_.back().first, share_done_, left)).c_str(), stderr);
             std::fflush(stderr);
             drawn = true;
         }

@@ -9,18 +9,18 @@
 namespace dstylize {
 namespace {
 
-constexpr Extent kExtent{96, 80};
+constexpr Extent kLatticeExtent{96, 80};
 
 struct Ground {
-    Fields fields{Grid<float>(kExtent, 0.4f), FieldParameters{}, UserMaps{}, 5};
-    Grid<std::uint8_t> passable{kExtent, 1};
+    Fields fields{Grid<float>(kLatticeExtent, 0.4f), FieldParameters{}, UserMaps{}, 5};
+    Grid<std::uint8_t> passable{kLatticeExtent, 1};
     WeightedLattice graph{
-        Lattice(kExtent, Neighbourhood::square8), std::vector<NodeWeight>(kExtent.count(), 1), {}, true};
+        Lattice(kLatticeExtent, Neighbourhood::square8), std::vector<NodeWeight>(kLatticeExtent.count(), 1), {}, true};
     Dendrite drawn;
 
     Ground() {
-        for (int j = 0; j < kExtent.y; ++j)
-            for (int i = 60; i < kExtent.x; ++i) passable(i, j) = 0, graph.weight[index(graph.lattice.at(i, j))] = 0;
+        for (int j = 0; j < kLatticeExtent.y; ++j)
+            for (int i = 60; i < kLatticeExtent.x; ++i) passable(i, j) = 0, graph.weight[index(graph.lattice.at(i, j))] = 0;
         std::uint32_t parent = Dendrite::kRoot;
         for (int j = 70; j > 50; --j) {
             const NodeId node = graph.lattice.at(30, j);
