@@ -24,11 +24,15 @@
 namespace dstylize {
 namespace {
 
+/// From so many nodes on memory counts for more than a little time, or for more than all.
+constexpr std::size_t kLarge = std::size_t{1} << 22, kHuge = std::size_t{1} << 26;
+
 /// One round of a stage.
 struct Round {
     const StageParameters& stage;
     std::uint32_t number;
     int batch;
+    bool is_last;
     std::uint32_t substream() const { return 1 + number + 256 * std::uint32_t(batch); }
 };
 
@@ -68,12 +72,21 @@ DirectionalCost directional_cost(Fields& fields, const Lattice& lattice, const S
     return out;
 }
 
+/// What the last weights were made of: strokes seldom ask for it again, except for the tone.
+void release_intermediates(Fields& fields) {
+    constexpr std::string_view kNames[] = {"tone",     "luma",        "lightness",   "darkness",
+                                           "gradient", "white_noise", "smooth_noise"};
+    const std::span names(kNames);
+    if (fields.extent().count() > kLarge) fields.release(fields.extent().count() > kHuge ? names : names.subspan(1));
+}
+
 /// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
 WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round,
                         const DirectionalCost& directional, const Work& work) {
     const StageParameters& stage = round.stage;
     WeightedLattice graph{base.lattice, {}, {}, true};
     Grid<float> cost = node_cost(fields, round);
+    if (round.is_last) release_intermediates(fields);
     if (stage.noise_white > 0 || stage.noise_smooth > 0) {
         transform(cost, [](float c) { return std::max(0.0f, c); });
         add_noise(cost, fields, round);
@@ -205,11 +218,9 @@ void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t fir
     }
 }
 
-/// Calls both beside one another: the first is often one thread's work. On a huge lattice, which has no memory to spare,
-/// one after the other.
+/// Calls both beside one another: the first is often one thread's work. On a huge lattice one after the other.
 template <class Place, class FindPaths>
 void both(const Place& place, const FindPaths& find_paths, Extent lattice) {
-    constexpr std::size_t kHuge = std::size_t{1} << 26;  // nodes
     if (lattice.count() > kHuge) {
         place();
         find_paths();
@@ -217,14 +228,6 @@ void both(const Place& place, const FindPaths& find_paths, Extent lattice) {
         // Isolated, the one does not wait for parts of the other.
         tbb::parallel_invoke([&] { tbb::this_task_arena::isolate(place); }, find_paths);
     }
-}
-
-/// What the last weights were made of, large beside all else on a fine lattice. Strokes seldom ask for it again.
-void release_intermediates(Fields& fields) {
-    constexpr std::size_t kLarge = std::size_t{1} << 22;  // nodes
-    constexpr std::string_view kNames[] = {"luma",     "lightness",   "darkness",
-                                           "gradient", "white_noise", "smooth_noise"};
-    if (fields.extent().count() > kLarge) fields.release(kNames);
 }
 
 }  // namespace
@@ -243,7 +246,8 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
         const bool given = !controls.endpoints.empty();
         const DirectionalCost directional = directional_cost(fields, base.lattice, stage);
         for (int batch = 0; batch < (given ? 1 : stage.batches); ++batch) {
-            const Round round{stage, std::uint32_t(s), batch};
+            const bool is_last = s + 1 == style.stages.size() && batch + 1 == stage.batches;
+            const Round round{stage, std::uint32_t(s), batch, is_last};
             const double done = double(s) + double(batch) / stage.batches;
             work.report(stage.name + ": weights", (0.2 + done) / (stages + 1));
             Grid<float> lacking;
@@ -254,7 +258,6 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 fields.replace("lacking", std::move(share));
             }
             const WeightedLattice graph = weights(fields, base, round, directional, work);
-            if (s + 1 == style.stages.size() && batch + 1 == stage.batches) release_intermediates(fields);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
