@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "support/scenes.h"
 
@@ -43,6 +44,37 @@ TEST(Filters, RankAndPercentileAgree) {
         const Grid<float> r = rank(ramp);
         for (int i = 0; i < size; ++i) ASSERT_NEAR(r(i, 0), ramp(i, 0) / float(size), 1e-6f + 2 * bin / float(size));
     }
+}
+
+TEST(Filters, PercentilesAreRanksOfUnevenSamplesToABin) {
+    Grid<float> field({1000, 300});
+    for (std::size_t n = 0; n < field.size(); ++n) field[n] = std::pow(float((n * 7919) % field.size()), 3.0f);
+    std::vector<float> sorted(field.begin(), field.end());
+    std::sort(sorted.begin(), sorted.end());
+    const float bin = sorted.back() / 65536;
+    for (const float percent : {0.0f, 1.0f, 2.0f, 33.3f, 50.0f, 97.0f, 98.5f, 99.99f}) {
+        const auto rank = std::size_t(double(percent) / 100 * double(sorted.size()));
+        EXPECT_NEAR(percentile(field, percent), sorted[rank], bin) << percent;
+        EXPECT_EQ(percentiles(field, percent, 50).first, percentile(field, percent));
+    }
+    EXPECT_EQ(percentile(Grid<float>({9, 9}, 0.25f), 70), 0.25f) << "of one value";
+}
+
+TEST(Filters, AGradientIsTheSameWithinAndAcrossBandsOfRows) {
+    Grid<float> waves({40, 500});
+    for (int j = 0; j < 500; ++j)
+        for (int i = 0; i < 40; ++i) waves(i, j) = std::sin(0.3f * float(i)) * std::cos(0.2f * float(j));
+    const Grid<float> magnitude = gradient_magnitude(waves);
+    const Derivatives d = derivatives(waves);
+    for (int j = 1; j < 499; ++j)
+        for (int i = 1; i < 39; ++i) {
+            const auto at = [&](int x, int y) { return double(waves(i + x, j + y)); };
+            const double dx = (at(1, -1) + 2 * at(1, 0) + at(1, 1) - at(-1, -1) - 2 * at(-1, 0) - at(-1, 1)) / 8;
+            const double dy = (at(-1, 1) + 2 * at(0, 1) + at(1, 1) - at(-1, -1) - 2 * at(0, -1) - at(1, -1)) / 8;
+            ASSERT_NEAR(double(d.x(i, j)), dx, 1e-5) << i << " " << j;
+            ASSERT_NEAR(double(d.y(i, j)), dy, 1e-5) << i << " " << j;
+            ASSERT_NEAR(double(magnitude(i, j)), std::hypot(dx, dy), 1e-5) << i << " " << j;
+        }
 }
 
 }  // namespace

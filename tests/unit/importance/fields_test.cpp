@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/noise.h"
+#include "core/vec.h"
 #include "imaging/filters.h"
 #include "importance/frame.h"
 #include "support/scenes.h"
@@ -99,6 +101,37 @@ TEST(Fields, NoiseIsKeyedByPicturePosition) {
     Fields coarse = fields_of(picture, {512, 384}), fine = fields_of(picture, {1024, 768});
     const Grid<float> halved = resized(fine["smooth_noise"], {512, 384});
     EXPECT_GT(correlation(coarse["smooth_noise"], halved), 0.95);
+}
+
+TEST(Fields, WhatIsForgottenComesAgainAsItWas) {
+    Fields fields = fields_of(test::scene({120, 90}), {128, 96});
+    const Grid<float> tone = fields["tone"], importance = fields["importance"], noise = fields["white_noise"];
+    constexpr std::string_view kNames[] = {"tone", "gradient", "importance", "white_noise"};
+    fields.release(kNames);
+    EXPECT_TRUE(fields["importance"] == importance && fields["tone"] == tone && fields["white_noise"] == noise);
+}
+
+TEST(Fields, WhiteNoiseIsOneNumberPerCellWhereNodesAreFiner) {
+    const Noise expected(1, Purpose::white_noise);
+    for (const int side : {40, 3000}) {  // cells are half a u, the picture's long side 1024 u
+        Fields fields = fields_of(test::scene({32, 32}), {side, 30});
+        const auto cell = [&](int node) { return std::uint64_t((float(node) + 0.5f) * (2 / fields.u())); };
+        for (int j = 0; j < 30; ++j)
+            for (int i = 0; i < side; ++i)
+                ASSERT_EQ(fields["white_noise"](i, j), expected.unit(cell(j) << 32 | cell(i))) << i << " " << j;
+    }
+}
+
+TEST(Fields, BorderFallsWithTheDistanceFromTheFrame) {
+    for (const Extent e : {Extent{200, 120}, Extent{300, 7}, Extent{1, 1}}) {
+        Fields fields = fields_of(test::scene({50, 30}), e);
+        const float inner = 3 * fields.u(), outer = std::max(24 * fields.u(), inner + 1);
+        for (int j = 0; j < e.y; ++j)
+            for (int i = 0; i < e.x; ++i) {
+                const float away = float(std::min({i, e.x - 1 - i, j, e.y - 1 - j}));
+                ASSERT_FLOAT_EQ(fields["border"](i, j), 1 - smoothstep(inner, outer, away)) << i << " " << j;
+            }
+    }
 }
 
 TEST(Fields, WhiteNoiseIsUniform) {
