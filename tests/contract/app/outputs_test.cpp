@@ -183,10 +183,19 @@ TEST_F(OutputTest, OurOwnFilesAreReplacedOthersOnlyByForce) {
 TEST_F(OutputTest, NoOutputIsWrittenWhenOneCannotBeMade) {
     const auto before = folder_.names();
     expect_error(draw({"in.png", "a.png", "-o", "a.webp", "--size", "17000", "--max-memory", "64G"}), 2, {"a.webp"});
-    // What is refused for a tree's list of edges is no trouble for ink's weights.
-    expect_done(draw({"in.png", "a.png", "--dry-run", "--style", "ink", "--detail", "2000", "--max-memory", "512M"}));
     expect_error(draw({"in.png", "a.png", "-o", "no/b.png"}), 4, {"no/b.png"});
     EXPECT_EQ(folder_.names(), before);
+}
+
+TEST_F(OutputTest, InkNeedsLessMemoryThanATreeOnTheSameLattice) {
+    const Words asks{"in.png", "a.png", "--dry-run", "--detail", "2000", "--max-memory", "512M", "--style"};
+    const auto with = [&](const char* style) {
+        Words words = asks;
+        words.emplace_back(style);
+        return run(words);
+    };
+    expect_done(with("ink"));
+    expect_error(with("tree"), 2, {"in.png", "GiB", "--detail"});
 }
 
 TEST_F(OutputTest, AnInputNamedLikeASubcommandIsGivenWithItsFolder) {
