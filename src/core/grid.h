@@ -20,10 +20,12 @@ struct Extent {
 /// std::allocator, but what is made without a value has none yet: fresh memory stays untouched until it is written.
 template <class T>
 struct UnsetAllocator : std::allocator<T> {
+    // NOLINTBEGIN(readability-identifier-naming): the standard's names
     template <class U>
     struct rebind {
         using other = UnsetAllocator<U>;
     };
+    // NOLINTEND(readability-identifier-naming)
     template <class U>
     void construct(U* at) {
         ::new (static_cast<void*>(at)) U;

@@ -78,8 +78,8 @@ class Percentiles {
     std::vector<std::uint32_t> wide_;
 };
 
-/// Calls filter(from, to) for bands of rows, several at once. OpenCV reads beyond a band what lies there, so the bands do
-/// not show.
+/// Calls filter(from, to) for bands of rows, several at once. OpenCV reads beyond a band what lies there, so the bands
+/// do not show.
 template <class Filter>
 void in_row_bands(const cv::Mat& from, cv::Mat& to, Filter filter) {
     constexpr int kRows = 192;

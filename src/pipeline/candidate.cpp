@@ -109,11 +109,15 @@ Candidate candidate(PreparedPicture base, const Style& style, const Controls& co
         half_width = fields["room"];
         transform(half_width, [whole = kRoom_u * u](float v) { return v * whole; });
     }
-    Widths widths(dendrite, c.branching, style.width,
-                  {style.width.wants_ink() || style.width.trunk > 0 ? &fields["wanted"] : nullptr, fields["importance"], style.width.wants_ink() ? &fields["lines"] : nullptr,
-                   style.width.field > 0 ? &width_sum : nullptr, style.width.path > 0 ? &c.grown.node_cost : nullptr,
-                   half_width.empty() ? nullptr : &half_width, style.width.swing > 0 ? &fields["guided"] : nullptr},
-                  u);
+    const WidthParameters& p = style.width;
+    const WidthFields look{.tone = p.wants_ink() || p.trunk > 0 ? &fields["wanted"] : nullptr,
+                           .importance = fields["importance"],
+                           .lines = p.wants_ink() ? &fields["lines"] : nullptr,
+                           .sum = p.field > 0 ? &width_sum : nullptr,
+                           .node_cost = p.path > 0 ? &c.grown.node_cost : nullptr,
+                           .half_width = half_width.empty() ? nullptr : &half_width,
+                           .guided = p.swing > 0 ? &fields["guided"] : nullptr};
+    Widths widths(dendrite, c.branching, p, look, u);
     if (style.width.tone > 0) fit_tone(widths, style.width.feedback, c.lines, dendrite, c.branching, u, work);
     c.widths = widths.widths();
     return c;

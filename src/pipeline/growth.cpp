@@ -267,8 +267,8 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
             std::vector<NodeId> endpoints;
             Plan plan;
             const auto place = [&] {
-                const EndpointView view{base.passable, graph, growth.dendrite(), std::uint32_t(s),
-                                        batch,         stage.batches};
+                const EndpointView view{base.passable,    graph, growth.dendrite(),
+                                        std::uint32_t(s), batch, stage.batches};
                 endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
                                   : placed_endpoints(fields, stage.endpoints, view, controls.seed, work);
             };

@@ -182,8 +182,8 @@ class Run {
         double bytes;
         const char* remedy;
     };
-    /// The picture, fields, labels and queues; with directions also a height for each edge, on irregular lattices a list
-    /// of edges.
+    /// The picture, fields, labels and queues; with directions also a height for each edge, on irregular lattices a
+    /// list of edges.
     double bytes_per_node() const {
         constexpr double kOfWeights = 42, kOfDirections = 130, kOfLists = 330;
         if (style_.lattice.kind == LatticeParameters::Kind::scattered) return kOfLists;

@@ -185,8 +185,7 @@ std::string file_text(const std::string& path) {
     } catch (const std::ios::failure&) {
         text.clear();
     }
-    if (text.empty())
-        throw Error(ErrorCode::bad_usage, path, "the style file cannot be read", "check the path");
+    if (text.empty()) throw Error(ErrorCode::bad_usage, path, "the style file cannot be read", "check the path");
     return text;
 }
 

@@ -183,9 +183,9 @@ class TilePainter {
     Picture& out_;
     Grain grain_;
     int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;  ///< the tile's pixels
-    CoveragePlane plane_;             ///< bare between two composites
-    std::vector<Premultiplied> ink_;  ///< bare between two tiles
-    std::vector<Span> inked_;         ///< of each row of samples
+    CoveragePlane plane_;                           ///< bare between two composites
+    std::vector<Premultiplied> ink_;                ///< bare between two tiles
+    std::vector<Span> inked_;                       ///< of each row of samples
     std::vector<float> scratch_;
 };
 

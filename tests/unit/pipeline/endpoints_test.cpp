@@ -20,7 +20,8 @@ struct Ground {
 
     Ground() {
         for (int j = 0; j < kLatticeExtent.y; ++j)
-            for (int i = 60; i < kLatticeExtent.x; ++i) passable(i, j) = 0, graph.weight[index(graph.lattice.at(i, j))] = 0;
+            for (int i = 60; i < kLatticeExtent.x; ++i)
+                passable(i, j) = 0, graph.weight[index(graph.lattice.at(i, j))] = 0;
         std::uint32_t parent = Dendrite::kRoot;
         for (int j = 70; j > 50; --j) {
             const NodeId node = graph.lattice.at(30, j);
