@@ -24,7 +24,6 @@
 // Parents follow from labels at rest, row by row; owners from parents.
 #include "graph/tile_planner.h"
 
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 

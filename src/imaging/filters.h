@@ -26,7 +26,7 @@ struct StructureTensor {
 StructureTensor structure_tensor(const Derivatives& derivatives);
 /// The value below which `percent` of the samples lie, to 1/65536 of their range.
 float percentile(const Grid<float>& field, float percent);
-/// Two percentiles for the price of one.
+/// Two percentiles for less than the price of two.
 std::pair<float, float> percentiles(const Grid<float>& field, float low_percent, float high_percent);
 /// Every sample replaced by the share of samples that are smaller, in [0, 1).
 Grid<float> rank(const Grid<float>& field);

@@ -33,11 +33,11 @@ void take_away_surroundings(Grid<float>& tone, float share, float sigma) {
 Grid<float> luma(Fields& fields) { return fields.source_luma(); }
 
 Grid<float> lightness(Fields& fields) {
-    const Grid<float>& luma = fields.source_luma();
-    const auto [lo, hi] = percentiles(luma, fields.parameters().stretch_low, fields.parameters().stretch_high);
+    const Grid<float>& source = fields.source_luma();
+    const auto [lo, hi] = percentiles(source, fields.parameters().stretch_low, fields.parameters().stretch_high);
     // A picture of one colour has nothing to stretch.
-    if (hi - lo < 1e-4f) return luma;
-    return transformed(luma, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
+    if (hi - lo < 1e-4f) return source;
+    return transformed(source, [lo = lo, hi = hi](float v) { return std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f); });
 }
 
 Grid<float> darkness(Fields& fields) {

@@ -24,7 +24,7 @@
 namespace dstylize {
 namespace {
 
-/// From so many nodes on memory counts for more than a little time, or for more than all.
+/// Nodes from which on fields are let go that may have to be made again, and from which on time is given for memory.
 constexpr std::size_t kLarge = std::size_t{1} << 22, kHuge = std::size_t{1} << 26;
 
 /// One round of a stage.
@@ -32,7 +32,7 @@ struct Round {
     const StageParameters& stage;
     std::uint32_t number;
     int batch;
-    bool is_last;
+    bool is_last;  ///< no weights are made after it
     std::uint32_t substream() const { return 1 + number + 256 * std::uint32_t(batch); }
 };
 
@@ -245,8 +245,9 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
         if (s > 0 && stage.layer != style.stages[s - 1].layer) growth.start_layer(0);
         const bool given = !controls.endpoints.empty();
         const DirectionalCost directional = directional_cost(fields, base.lattice, stage);
-        for (int batch = 0; batch < (given ? 1 : stage.batches); ++batch) {
-            const bool is_last = s + 1 == style.stages.size() && batch + 1 == stage.batches;
+        const int batches = given ? 1 : stage.batches;
+        for (int batch = 0; batch < batches; ++batch) {
+            const bool is_last = s + 1 == style.stages.size() && batch + 1 == batches;
             const Round round{stage, std::uint32_t(s), batch, is_last};
             const double done = double(s) + double(batch) / stage.batches;
             work.report(stage.name + ": weights", (0.2 + done) / (stages + 1));

@@ -20,8 +20,8 @@ struct Grown {
     Dendrite dendrite;
     std::vector<std::size_t> endpoints;  ///< placed, per stage
     std::size_t unreached = 0;           ///< endpoints without a path
-    Grid<float>
-        node_cost;  ///< of a unit of length at each node of the dendrite, 0 elsewhere; empty when no width follows it
+    /// Of a unit of length at each node of the dendrite, 0 elsewhere; empty when no width follows it.
+    Grid<float> node_cost;
 };
 
 /// Runs the stages of a style, each in its batches: weights, endpoints, plan, graft. `observer` may be empty.

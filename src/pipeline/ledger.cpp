@@ -41,7 +41,7 @@ void Ledger::read(const fs::path& path, Entries& entries) {
     if (!fs::exists(path, ignored)) return;
     std::ifstream file(path);
     if (!file) throw Error(ErrorCode::cannot_read, path.string(), "cannot be read", "check its permissions");
-    file.exceptions(std::ios::badbit);
+    file.exceptions(std::ios::badbit);  // or what no memory is left for would end the list
     for (std::string text; std::getline(file, text);) {
         const json tree = json::parse(text, nullptr, false);
         if (!tree.is_object()) continue;
