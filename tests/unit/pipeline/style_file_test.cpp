@@ -61,6 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
     Table, BadStyle,
     ::testing::Values(
         Bad{"syntax", "[style\n", "s.toml:1:"},
+        Bad{"header without a key", "[style]\n[[# name\n", "s.toml:2:3: Error while parsing key"},
+        Bad{"sign for a blank", "[style]\nname \u00a7 = 1\n", "s.toml:2:6: Error while parsing"},
         Bad{"unknown key", "[style]\nmetaphor=\"ink\"\n[lattice]\ndetial = 3\n[[stage]]\n",
             "s.toml:4:1: unknown key 'lattice.detial': did you mean 'lattice.detail'?"},
         Bad{"unknown section", "[style]\nmetaphor=\"ink\"\n[latice]\ndetail = 3\n[[stage]]\n",
