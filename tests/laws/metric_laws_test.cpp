@@ -11,6 +11,7 @@
 
 #include "graph/planner.h"
 #include "laws/random_graphs.h"
+#include "support/sanitized.h"
 
 namespace dstylize {
 namespace {
@@ -83,7 +84,8 @@ Plan reference(const RandomGraph& g, Metric metric) {
     return reference_planner().plan({g.graph, g.sources, metric}, {});
 }
 
-constexpr int kTinyGraphs = 4000, kTinySide = 3, kGraphs = 3000, kSide = 14;
+constexpr std::uint32_t kTinyGraphs = test::fewer_if_sanitized(4000), kGraphs = test::fewer_if_sanitized(3000);
+constexpr int kTinySide = 3, kSide = 14;
 
 TEST(Sum, LabelIsTheLeastOfAllPaths) {
     for (std::uint32_t seed = 0; seed < kTinyGraphs; ++seed) {

@@ -9,6 +9,7 @@
 #include "graph/planner.h"
 #include "graph/tile_planner.h"
 #include "laws/random_graphs.h"
+#include "support/sanitized.h"
 
 namespace dstylize {
 namespace {
@@ -49,7 +50,7 @@ WeightedLattice row_of(std::vector<NodeWeight> weight) {
 }
 
 TEST_P(EveryPlanner, ParentIsTheSmallestNeighbourThatGivesTheLabel) {
-    for (std::uint32_t seed = 0; seed < 1000; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         std::map<NodeId, std::uint64_t> start;
         for (const Source& s : g.sources) {
@@ -81,7 +82,7 @@ TEST_P(EveryPlanner, ParentIsTheSmallestNeighbourThatGivesTheLabel) {
 }
 
 TEST_P(EveryPlanner, OwnerIsTheOwnerOfTheSourceAtTheEndOfTheParents) {
-    for (std::uint32_t seed = 0; seed < 1000; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         std::map<NodeId, std::pair<std::uint64_t, std::uint16_t>> own;
         for (const Source& s : g.sources) {
@@ -105,7 +106,7 @@ TEST_P(EveryPlanner, OwnerIsTheOwnerOfTheSourceAtTheEndOfTheParents) {
 
 TEST_P(EveryPlanner, ExactlyTheUnreachableNodesHaveNoLabelParentOrOwner) {
     int unreachable = 0;
-    for (std::uint32_t seed = 0; seed < 1000; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         const std::vector<bool> reached = test::reachable(g);
         for (const Metric metric : kMetrics) {
@@ -124,7 +125,7 @@ TEST_P(EveryPlanner, ExactlyTheUnreachableNodesHaveNoLabelParentOrOwner) {
 }
 
 TEST_P(EveryPlanner, LabelsAddUpAlongTheParents) {
-    for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(300); ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         for (const Metric metric : kMetrics) {
             const Plan p = plan(g, metric);

@@ -4,6 +4,7 @@
 #include "graph/bucket_planner.h"
 #include "graph/planner.h"
 #include "laws/random_graphs.h"
+#include "support/sanitized.h"
 
 namespace dstylize {
 namespace {
@@ -30,12 +31,12 @@ TEST(BucketPlanner, AgreesWithTheReferenceOnTenThousandGraphs) {
 }
 
 TEST(BucketPlanner, AgreesWithTheReferenceOnLargerGraphs) {
-    for (std::uint32_t seed = 20000; seed < 20200; ++seed)
+    for (std::uint32_t seed = 20000; seed < 20000 + test::fewer_if_sanitized(200); ++seed)
         ASSERT_NO_FATAL_FAILURE(expect_reference_answer(bucket_planner(), random_graph(seed, 120)));
 }
 
 TEST(BucketPlanner, AgreesWithTheReferenceForAnyBlend) {
-    for (std::uint32_t seed = 30000; seed < 30400; ++seed)
+    for (std::uint32_t seed = 30000; seed < 30000 + test::fewer_if_sanitized(400); ++seed)
         for (const std::uint32_t factor : {0u, 1u, 37u, 0xffffffffu})
             ASSERT_NO_FATAL_FAILURE(expect_reference_answer(bucket_planner(), random_graph(seed, 16), factor));
 }

@@ -10,6 +10,7 @@
 #include "graph/planner.h"
 #include "graph/tile_planner.h"
 #include "laws/random_graphs.h"
+#include "support/sanitized.h"
 
 namespace dstylize {
 namespace {
@@ -72,13 +73,13 @@ TEST(TilePlanner, AgreesWithTheReferenceOnTenThousandGraphs) {
 }
 
 TEST(TilePlanner, AgreesWithTheReferenceOnGraphsOfManyTiles) {
-    for (std::uint32_t seed = 20000; seed < 20200; ++seed)
+    for (std::uint32_t seed = 20000; seed < 20000 + test::fewer_if_sanitized(200); ++seed)
         ASSERT_NO_FATAL_FAILURE(expect_both_metrics(random_graph(seed, 300), 1 + int(seed % 3)));
 }
 
 TEST(TilePlanner, AgreesWithTheReferenceWithEveryInstructionSet) {
     with_every_instruction_set([] {
-        for (std::uint32_t seed = 50000; seed < 50300; ++seed)
+        for (std::uint32_t seed = 50000; seed < 50000 + test::fewer_if_sanitized(300); ++seed)
             ASSERT_NO_FATAL_FAILURE(expect_both_metrics(random_graph(seed, seed % 4 == 0 ? 140 : 24)));
     });
 }
@@ -144,7 +145,7 @@ TEST(TilePlanner, KeepsMoreOwnersApartThanABytesWorth) {
 }
 
 TEST(TilePlanner, AnswersTheSameForAnyNumberOfThreads) {
-    for (std::uint32_t seed = 60000; seed < 60020; ++seed) {
+    for (std::uint32_t seed = 60000; seed < 60000 + test::fewer_if_sanitized(20); ++seed) {
         const RandomGraph g = random_graph(seed, 700);
         for (const Metric metric : {Metric::sum, Metric::max_sum}) {
             const PlanRequest request{g.graph, g.sources, metric};

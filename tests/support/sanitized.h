@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace dstylize::test {
 
 /// Whether this is a sanitizer's build: slow, and nothing may be preloaded into it.
@@ -8,5 +10,8 @@ inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
+
+/// How many of `cases` random ones a test takes: a fifth under a sanitizer, where each takes several times as long.
+constexpr std::uint32_t fewer_if_sanitized(std::uint32_t cases) { return kSanitized ? cases / 5 : cases; }
 
 }  // namespace dstylize::test
