@@ -2,6 +2,8 @@
 // allocation that fails for the end of a number.
 #pragma once
 
+#include <cstdint>  // which the second of the parts below takes for given
+
 #define TOML_HEADER_ONLY 1
 #define TOML_FLOAT_CHARCONV 1
 // Two of its statements about malformed texts are wrong, and then undefined behaviour; what follows them is right.
