@@ -249,7 +249,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
         for (int batch = 0; batch < batches; ++batch) {
             const bool is_last = s + 1 == style.stages.size() && batch + 1 == batches;
             const Round round{stage, std::uint32_t(s), batch, is_last};
-            const double done = double(s) + double(batch) / stage.batches;
+            const double done = double(s) + double(batch) / batches;
             work.report(stage.name + ": weights", (0.2 + done) / (stages + 1));
             Grid<float> lacking;
             if (looks_at_lack(stage)) {

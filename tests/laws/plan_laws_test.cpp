@@ -49,8 +49,10 @@ WeightedLattice row_of(std::vector<NodeWeight> weight) {
     return g;
 }
 
+constexpr std::uint32_t kRandomGraphs = test::fewer_if_sanitized(1000);
+
 TEST_P(EveryPlanner, ParentIsTheSmallestNeighbourThatGivesTheLabel) {
-    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
+    for (std::uint32_t seed = 0; seed < kRandomGraphs; ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         std::map<NodeId, std::uint64_t> start;
         for (const Source& s : g.sources) {
@@ -82,7 +84,7 @@ TEST_P(EveryPlanner, ParentIsTheSmallestNeighbourThatGivesTheLabel) {
 }
 
 TEST_P(EveryPlanner, OwnerIsTheOwnerOfTheSourceAtTheEndOfTheParents) {
-    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
+    for (std::uint32_t seed = 0; seed < kRandomGraphs; ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         std::map<NodeId, std::pair<std::uint64_t, std::uint16_t>> own;
         for (const Source& s : g.sources) {
@@ -106,7 +108,7 @@ TEST_P(EveryPlanner, OwnerIsTheOwnerOfTheSourceAtTheEndOfTheParents) {
 
 TEST_P(EveryPlanner, ExactlyTheUnreachableNodesHaveNoLabelParentOrOwner) {
     int unreachable = 0;
-    for (std::uint32_t seed = 0; seed < test::fewer_if_sanitized(1000); ++seed) {
+    for (std::uint32_t seed = 0; seed < kRandomGraphs; ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         const std::vector<bool> reached = test::reachable(g);
         for (const Metric metric : kMetrics) {
