@@ -18,6 +18,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 
 namespace {
 
@@ -135,16 +136,17 @@ std::FILE* fopen(const char* path, const char* mode) {
     return next<decltype(fopen)>("fopen")(path, mode);
 }
 
-void* __libc_malloc(size_t size);
-void* __libc_calloc(size_t count, size_t size);
-void* __libc_realloc(void* at, size_t size);
-
-void* malloc(size_t size) noexcept { return fails(Calls::memory, "malloc") ? nullptr : __libc_malloc(size); }
+void* malloc(size_t size) noexcept {
+    static const auto real = next<decltype(malloc)>("malloc");
+    return fails(Calls::memory, "malloc") ? nullptr : real(size);
+}
 void* calloc(size_t count, size_t size) noexcept {
-    return fails(Calls::memory, "calloc") ? nullptr : __libc_calloc(count, size);
+    static const auto real = next<decltype(calloc)>("calloc");
+    return fails(Calls::memory, "calloc") ? nullptr : real(count, size);
 }
 void* realloc(void* at, size_t size) noexcept {
-    return fails(Calls::memory, "realloc") ? nullptr : __libc_realloc(at, size);
+    static const auto real = next<decltype(realloc)>("realloc");
+    return fails(Calls::memory, "realloc") ? nullptr : real(at, size);
 }
 
 }  // extern "C"
@@ -152,3 +154,10 @@ void* realloc(void* at, size_t size) noexcept {
 /// What others find under the large-file names.
 extern "C" int open64(const char* path, int flags, ...) __attribute__((alias("open")));
 extern "C" std::FILE* fopen64(const char* path, const char* mode) __attribute__((alias("fopen")));
+
+/// The program's allocator has its own, which do not come by malloc().
+void* operator new(std::size_t size) {
+    if (void* const at = malloc(size)) return at;
+    throw std::bad_alloc();
+}
+void* operator new[](std::size_t size) { return operator new(size); }

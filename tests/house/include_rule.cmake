@@ -30,6 +30,7 @@ set(owner_pango "text")
 set(owner_toml++ "pipeline")
 set(owner_nlohmann "formats;pipeline;app")
 set(owner_CLI "app")
+set(owner_jemalloc "")
 
 set(files_seen 0)
 file(GLOB rooms RELATIVE "${SRC}" "${SRC}/*")
