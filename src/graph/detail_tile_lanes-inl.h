@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "graph/detail_tile_window.h"
 
@@ -18,20 +19,33 @@ HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// At most 256 bits: shifts over a row are made of blocks of 128 bits and one neighbour.
 template <class Lane>
-using Tag = hn::CappedTag<Lane, 32 / sizeof(Lane)>;
+using Tag = hn::CappedTag<Lane, 64 / sizeof(Lane)>;
 template <class Lane>
 using Vec = hn::Vec<Tag<Lane>>;
 template <class Lane>
 inline constexpr int kLanes = int(hn::MaxLanes(Tag<Lane>()));
 
+/// In sweeps at most 256 bits: shifts over a row are made of blocks of 128 bits and one neighbour, and what a sweep
+/// takes is the time from a row to the next.
+template <class Lane>
+using SweepTag = hn::CappedTag<Lane, 32 / sizeof(Lane)>;
+template <class Lane>
+using SweepVec = hn::Vec<SweepTag<Lane>>;
+template <class Lane>
+inline constexpr int kSweepLanes = int(hn::MaxLanes(SweepTag<Lane>()));
+
 /// No label, no edge. Twice that much, or that and a cost, does not wrap.
 template <class Lane>
 inline constexpr Lane kFar = sizeof(Lane) == 2 ? Lane(65535) : Lane(1u << 30);
 
-HWY_INLINE Vec<std::uint16_t> sum_of(Vec<std::uint16_t> a, Vec<std::uint16_t> b) { return hn::SaturatedAdd(a, b); }
-HWY_INLINE Vec<std::uint32_t> sum_of(Vec<std::uint32_t> a, Vec<std::uint32_t> b) { return hn::Add(a, b); }
+template <class V>
+HWY_INLINE V sum_of(V a, V b) {
+    if constexpr (sizeof(hn::TFromV<V>) == 2)
+        return hn::SaturatedAdd(a, b);
+    else
+        return hn::Add(a, b);
+}
 
 /// As many 16-bit values from p on, in lanes of either width.
 HWY_INLINE Vec<std::uint16_t> lanes_from(Tag<std::uint16_t> d, const std::uint16_t* p) { return hn::LoadU(d, p); }
@@ -42,23 +56,23 @@ HWY_INLINE Vec<std::uint32_t> lanes_from(Tag<std::uint32_t> d, const std::uint16
 /// A vector of a row with those beside it.
 template <class Lane>
 struct Stretch {
-    Vec<Lane> left, here, right;
+    SweepVec<Lane> left, here, right;
 
     HWY_INLINE void move_right(const Lane* row, int x) {
         left = here;
         here = right;
-        right = x + kLanes<Lane> < kWindow ? hn::Load(Tag<Lane>(), row + x + kLanes<Lane>)
-                                           : hn::Set(Tag<Lane>(), kFar<Lane>);
+        right = x + kSweepLanes<Lane> < kWindow ? hn::Load(SweepTag<Lane>(), row + x + kSweepLanes<Lane>)
+                                                : hn::Set(SweepTag<Lane>(), kFar<Lane>);
     }
 };
 
 #if HWY_TARGET != HWY_SCALAR
 /// Lane i gets what lies kStep lanes to its left (kStep > 0) or to its right.
 template <int kStep, class Lane>
-HWY_INLINE Vec<Lane> shifted(const Stretch<Lane>& s) {
-    const Tag<Lane> d;
+HWY_INLINE SweepVec<Lane> shifted(const Stretch<Lane>& s) {
+    const SweepTag<Lane> d;
     constexpr int kBytes = kStep * int(sizeof(Lane));
-    constexpr bool kTwoBlocks = kLanes<Lane> * sizeof(Lane) > 16;
+    constexpr bool kTwoBlocks = kSweepLanes<Lane> * sizeof(Lane) > 16;
     if constexpr (kStep == 0) {
         return s.here;
     } else if constexpr (kStep > 0) {
@@ -108,17 +122,20 @@ HWY_INLINE void transpose(const Lane* from, Lane* to) {
         for (int x = 0; x < kWindow; x += 8) transpose_block(from, to, x, y);
 }
 
+/// A bit for each lane. (As many bytes are read as are stored: a processor waits before it reads more than it has just
+/// written.)
 template <class D>
 HWY_INLINE std::uint64_t bits_of(D d, hn::Mask<D> mask) {
-    // As many bytes as are stored: a processor waits before it reads more than it has just written.
+    constexpr std::size_t kLanesOfD = hn::MaxLanes(D());
+    using Wide = std::conditional_t<(kLanesOfD > 16), std::uint32_t, std::uint16_t>;
     std::uint8_t bytes[8] = {};
     hn::StoreMaskBits(d, mask, bytes);
-    if constexpr (hn::MaxLanes(D()) <= 8) return bytes[0];
-    static_assert(hn::MaxLanes(D()) <= 16);
-    std::uint16_t bits;
+    if constexpr (kLanesOfD <= 8) return bytes[0];
+    Wide bits;
     std::memcpy(&bits, bytes, sizeof bits);
     return bits;
 }
+#if HWY_TARGET != HWY_AVX3
 /// Bits of 16-bit lanes are gathered from bytes: without them AVX2 needs pext, which takes a hundred cycles on some
 /// processors.
 HWY_INLINE std::uint64_t bits_of(Tag<std::uint16_t> d, hn::Mask<Tag<std::uint16_t>> mask) {
@@ -126,6 +143,7 @@ HWY_INLINE std::uint64_t bits_of(Tag<std::uint16_t> d, hn::Mask<Tag<std::uint16_
     const hn::Rebind<std::int8_t, decltype(d)> bytes;
     return bits_of(bytes, hn::MaskFromVec(hn::DemoteTo(bytes, hn::BitCast(whole, hn::VecFromMask(d, mask)))));
 }
+#endif
 
 /// Which of the 64 lanes are above a bound.
 template <class Lane>

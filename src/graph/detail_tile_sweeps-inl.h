@@ -56,15 +56,15 @@ void find_arrival_costs(const TileWindow<Lane>& window, std::span<const Step> st
 }
 
 template <class Rule, int kArrival, class Lane>
-HWY_INLINE Vec<Lane> arrived(const Stretch<Lane>& from, const ArrivalCosts<Lane>& costs, int at) {
-    return Rule::after(shifted<kArrivals[kArrival].dx>(from), hn::LoadU(Tag<Lane>(), costs[kArrival] + at));
+HWY_INLINE SweepVec<Lane> arrived(const Stretch<Lane>& from, const ArrivalCosts<Lane>& costs, int at) {
+    return Rule::after(shifted<kArrivals[kArrival].dx>(from), hn::LoadU(SweepTag<Lane>(), costs[kArrival] + at));
 }
 
 #if HWY_TARGET == HWY_SCALAR
 template <class Rule, int kSteps, int kDown, class Lane>
 HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, Lane* touched) {
     Lane differs = 0;
-    const Tag<Lane> d;
+    const SweepTag<Lane> d;
     for (int x = 0; x < kWindow; ++x) {
         const Lane old = label[y * kWindow + x];
         Lane best = old;
@@ -85,13 +85,13 @@ HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, L
 /// Lowers the labels of row y by the edges that arrive at it; marks in `touched` the lanes that fell.
 template <class Rule, int kSteps, int kDown, class Lane>
 HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, Lane* touched) {
-    const Tag<Lane> d;
+    const SweepTag<Lane> d;
     Lane* const row = label + y * kWindow;
     const Lane *const one = row - kDown * kWindow, *const two = one - kDown * kWindow;
     const auto far = hn::Set(d, kFar<Lane>);
     Stretch<Lane> a{far, far, hn::Load(d, one)}, b{far, far, hn::Load(d, two)};
     auto differs = hn::Zero(d);
-    for (int x = 0; x < kWindow; x += kLanes<Lane>) {
+    for (int x = 0; x < kWindow; x += kSweepLanes<Lane>) {
         const int at = y * kWindow + x;
         a.move_right(one, x);
         const auto old = hn::Load(d, row + x);

@@ -1,7 +1,6 @@
-// The passes of detail_tiles.h, compiled for each instruction set. With 512 bits shifts over a row would
-// need other instructions, and vectors of unknown length do not fit into arrays: machines that have them
-// take the next best.
-#define HWY_DISABLED_TARGETS (HWY_AVX3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+// The passes of detail_tiles.h, compiled for each instruction set. Vectors of unknown length do not fit into
+// arrays: machines that have them take the next best; and AVX3_DL has nothing that is needed.
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "graph/tile_passes.cpp"
 #include <hwy/foreach_target.h>
@@ -151,8 +150,8 @@ void find_parents(const ParentRequest& request, int first_row, int end_row, std:
 }
 
 std::uint16_t largest_value(const std::uint16_t* values, std::size_t count) {
-    const hn::CappedTag<std::uint16_t, 16> d;
-    constexpr std::size_t kAtOnce = hn::MaxLanes(decltype(d)());
+    const Tag<std::uint16_t> d;
+    constexpr std::size_t kAtOnce = kLanes<std::uint16_t>;
     auto largest = hn::Zero(d);
     std::size_t n = 0;
     for (; n + kAtOnce <= count; n += kAtOnce) largest = hn::Max(largest, hn::LoadU(d, values + n));
