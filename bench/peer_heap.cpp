@@ -154,7 +154,7 @@ using MinHeap = std::priority_queue<T, std::vector<T>, std::greater<>>;
 template <class Rule, class Edges>
 LabelColumn column_of(const std::vector<typename Rule::Label>& label, const Edges& edges, std::size_t count) {
     constexpr bool kHasHighest = requires(typename Rule::Label l) { Rule::highest(l); };
-    std::vector<std::uint32_t> sum(count), highest(kHasHighest ? count : 0);
+    UnsetVector<std::uint32_t> sum(count), highest(kHasHighest ? count : 0);
     for (std::uint32_t n = 0; n < count; ++n) {
         const auto& l = label[edges.place(n)];
         sum[n] = Rule::sum(l);

@@ -36,6 +36,11 @@ struct UnsetAllocator : std::allocator<T> {
     }
 };
 
+/// A vector that can have values that are not set yet: resize() leaves them to who sets all of them. On several
+/// threads, if they are many: most of what a large array costs falls to who first touches its memory.
+template <class T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
+
 /// Dense samples, x fastest, then y, then z. Owns its memory; a copy is deep.
 template <class T>
 class Grid {
@@ -43,8 +48,7 @@ class Grid {
     Grid() = default;
     explicit Grid(Extent extent, T fill = {}) : extent_(extent), samples_(extent.count(), fill) {}
 
-    /// Samples that have no value yet, for who sets all of them. On several threads, if they are many: most of what a
-    /// large grid costs falls to who first touches its memory.
+    /// Samples that have no value yet, as in an UnsetVector.
     static Grid unset(Extent extent) {
         Grid out;
         out.extent_ = extent;
@@ -75,7 +79,7 @@ class Grid {
         return (std::size_t(k) * std::size_t(extent_.y) + std::size_t(j)) * std::size_t(extent_.x) + std::size_t(i);
     }
     Extent extent_;
-    std::vector<T, UnsetAllocator<T>> samples_;
+    UnsetVector<T> samples_;
 };
 
 }  // namespace dstylize

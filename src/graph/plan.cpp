@@ -13,7 +13,7 @@ bool same_entries(const Column& a, const Column& b) {
 
 }  // namespace
 
-ParentColumn::ParentColumn(const Lattice& lattice, std::vector<std::uint8_t> step) : step_(std::move(step)) {
+ParentColumn::ParentColumn(const Lattice& lattice, UnsetVector<std::uint8_t> step) : step_(std::move(step)) {
     const auto steps = lattice.steps();
     for (std::size_t s = 0; s < steps.size(); ++s)
         offset_[s] = std::uint32_t(steps[s].dy * lattice.extent().x + steps[s].dx);

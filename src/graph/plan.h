@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/grid.h"
 #include "core/lattice.h"
 
 namespace dstylize {
@@ -28,7 +29,7 @@ class LabelColumn {
     LabelColumn() = default;
     LabelColumn(std::vector<PathLabel> labels) : wide_(std::move(labels)) {}
     /// Sums below kUnreached32, which stands for "unreached"; `highest` is empty where all are 0.
-    LabelColumn(std::vector<std::uint32_t> sum, std::vector<std::uint32_t> highest)
+    LabelColumn(UnsetVector<std::uint32_t> sum, UnsetVector<std::uint32_t> highest)
         : sum_(std::move(sum)), highest_(std::move(highest)) {}
 
     std::size_t size() const { return wide_.size() + sum_.size(); }
@@ -41,7 +42,7 @@ class LabelColumn {
 
   private:
     std::vector<PathLabel> wide_;
-    std::vector<std::uint32_t> sum_, highest_;
+    UnsetVector<std::uint32_t> sum_, highest_;
 };
 
 /// Parents: 1 byte on a regular lattice, the number of the step that leads from the parent to the node.
@@ -51,7 +52,7 @@ class ParentColumn {
     ParentColumn() = default;
     ParentColumn(std::vector<NodeId> parents) : wide_(std::move(parents)) {}
     /// `step`: indices into lattice.steps(), or kNoStep.
-    ParentColumn(const Lattice& lattice, std::vector<std::uint8_t> step);
+    ParentColumn(const Lattice& lattice, UnsetVector<std::uint8_t> step);
 
     std::size_t size() const { return wide_.size() + step_.size(); }
     NodeId operator[](std::size_t n) const {
@@ -62,7 +63,7 @@ class ParentColumn {
 
   private:
     std::vector<NodeId> wide_;
-    std::vector<std::uint8_t> step_;
+    UnsetVector<std::uint8_t> step_;
     std::array<std::uint32_t, 16> offset_{};  // from a node to the one that a step leads to, modulo 2^32
 };
 
@@ -71,7 +72,7 @@ class OwnerColumn {
   public:
     OwnerColumn() = default;
     OwnerColumn(std::vector<std::uint16_t> owners) : wide_(std::move(owners)) {}
-    OwnerColumn(std::vector<std::uint16_t> palette, std::vector<std::uint8_t> entry)
+    OwnerColumn(std::vector<std::uint16_t> palette, UnsetVector<std::uint8_t> entry)
         : palette_(std::move(palette)), entry_(std::move(entry)) {}
 
     std::size_t size() const { return wide_.size() + entry_.size(); }
@@ -80,7 +81,7 @@ class OwnerColumn {
 
   private:
     std::vector<std::uint16_t> wide_, palette_;
-    std::vector<std::uint8_t> entry_;
+    UnsetVector<std::uint8_t> entry_;
 };
 
 /// The answer for every node: one, whatever the implementation, thread count or order of work.

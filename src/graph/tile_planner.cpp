@@ -40,7 +40,7 @@
 namespace dstylize {
 namespace {
 
-using Labels = std::vector<std::uint32_t>;
+using Labels = UnsetVector<std::uint32_t>;
 constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
 constexpr std::uint32_t kLargestBottleneck = 65534;
 /// Above that 16-bit windows see too few steps ahead.
@@ -53,6 +53,16 @@ int thread_count(const Work& work) { return work.threads > 0 ? work.threads : tb
 template <class Body>
 void run_workers(int workers, const Body& body) {
     tbb::parallel_for(0, workers, body, tbb::simple_partitioner());
+}
+
+/// Calls body(first, end) for parts of 0 ... count that lie apart, each by a worker of its own.
+template <class Body>
+void share_out(std::size_t count, const Work& work, const Body& body) {
+    const std::size_t workers = std::min(std::size_t(thread_count(work)), count);
+    run_workers(int(workers), [&](int worker) {
+        const std::size_t w = std::size_t(worker);
+        body(count * w / workers, count * (w + 1) / workers);
+    });
 }
 
 /// The highest edge that there can be, and the longest step.
@@ -111,11 +121,9 @@ bool settle_labels(const TileProblem& problem, const std::vector<Source>& source
 
 ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck, std::uint32_t largest_step,
                      const std::vector<Source>& sources, const Work& work) {
-    std::vector<std::uint8_t> step(sum.size());
-    const int rows = g.lattice.extent().y, workers = std::min(thread_count(work), rows);
-    const auto share = [&](int worker) { return int(std::int64_t(rows) * worker / workers); };
-    run_workers(workers, [&](int worker) {
-        find_parents({g, sum, bottleneck, largest_step}, share(worker), share(worker + 1), step);
+    UnsetVector<std::uint8_t> step(sum.size());
+    share_out(std::size_t(g.lattice.extent().y), work, [&](std::size_t first, std::size_t end) {
+        find_parents({g, sum, bottleneck, largest_step}, int(first), int(end), step);
     });
     for (const Source& s : sources)
         if (sum[index(s.node)] == s.start && (bottleneck.empty() || bottleneck[index(s.node)] == 0))
@@ -125,9 +133,9 @@ ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& 
 
 /// Entries of the owners' palette: 0 for none. Each node once: up to where the owner is known, and back.
 template <class Entry>
-std::vector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+UnsetVector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
                                       const std::vector<Entry>& of_source) {
-    std::vector<Entry> entry(sum.size(), 0);
+    UnsetVector<Entry> entry(sum.size(), Entry{0});
     for (std::size_t k = 0; k < sources.size(); ++k)
         if (parent[index(sources[k].node)] == kNoNode) entry[index(sources[k].node)] = of_source[k];
     std::vector<std::uint32_t> way;
@@ -141,15 +149,18 @@ std::vector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& par
     return entry;
 }
 
-OwnerColumn owners(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources) {
+OwnerColumn owners(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+                   const Work& work) {
     std::vector<std::uint16_t> palette;
     for (const Source& s : sources) palette.push_back(s.owner);
     std::sort(palette.begin(), palette.end());
     palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
     palette.insert(palette.begin(), Plan::kNoOwner);
     if (palette.size() == 2) {
-        std::vector<std::uint8_t> entry(sum.size());
-        for (std::size_t n = 0; n < sum.size(); ++n) entry[n] = sum[n] != kUnreached;
+        UnsetVector<std::uint8_t> entry(sum.size());
+        share_out(sum.size(), work, [&](std::size_t first, std::size_t end) {
+            for (std::size_t n = first; n < end; ++n) entry[n] = sum[n] != kUnreached;
+        });
         return {std::move(palette), std::move(entry)};
     }
     std::vector<std::uint16_t> of_source;
@@ -160,9 +171,10 @@ OwnerColumn owners(const Labels& sum, const ParentColumn& parent, const std::vec
         const std::vector<std::uint8_t> narrow(of_source.begin(), of_source.end());
         return {std::move(palette), entries_by_parents(sum, parent, sources, narrow)};
     }
-    std::vector<std::uint16_t> wide = entries_by_parents(sum, parent, sources, of_source);
-    for (std::uint16_t& w : wide) w = palette[w];
-    return wide;
+    const UnsetVector<std::uint16_t> entry = entries_by_parents(sum, parent, sources, of_source);
+    std::vector<std::uint16_t> owner(entry.size());
+    for (std::size_t n = 0; n < owner.size(); ++n) owner[n] = palette[entry[n]];
+    return owner;
 }
 
 /// The plan by tiles, or nothing where they do not serve.
@@ -178,7 +190,10 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     Labels sum, bottleneck;
     const Tiling tiling(g.lattice);
     const auto problem = [&](TileRule rule, bool wide_lanes, std::uint32_t largest_step, Labels& label) {
-        label.assign(g.lattice.node_count(), kUnreached);
+        label.resize(g.lattice.node_count());
+        share_out(label.size(), work, [&](std::size_t first, std::size_t end) {
+            std::fill(label.begin() + std::ptrdiff_t(first), label.begin() + std::ptrdiff_t(end), kUnreached);
+        });
         return TileProblem{g, tiling, rule, wide_lanes, largest_step, label, bottleneck};
     };
     if (has_bottlenecks) {
@@ -195,7 +210,7 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     if (!settle_labels(sums, sources, work, stats)) return {};
     stats.tiles = std::uint64_t(tiling.count());
     ParentColumn parent = parents(g, sum, bottleneck, bounds.cost(), sources, work);
-    OwnerColumn owner = owners(sum, parent, sources);
+    OwnerColumn owner = owners(sum, parent, sources, work);
     return Plan{{std::move(sum), std::move(bottleneck)}, std::move(parent), std::move(owner)};
 }
 
