@@ -77,7 +77,10 @@ class BucketSearch {
     Plan run(const Work& work) && {
         const auto is_stale = [this](const RadixQueue::Entry& e) { return bucket(key_[e.node]) != e.priority; };
         std::vector<RadixQueue::Entry> least;
-        for (std::size_t count = 0; queue_.take_least(least, is_stale); ++count) {
+        const auto comes_soon = [this](const RadixQueue::Entry& e) {
+            if constexpr (requires { edges_.fetch(e.node); }) edges_.fetch(e.node);
+        };
+        for (std::size_t count = 0; queue_.take_least(least, is_stale, comes_soon); ++count) {
             if (count % 1024 == 0) work.check();
             for (const RadixQueue::Entry& e : least)
                 if (!is_stale(e)) settle(e.node);
@@ -126,10 +129,13 @@ struct EdgeRange {
 EdgeRange edge_range(const WeightedLattice& g) {
     std::uint32_t least = 65535, largest = 1;
     const auto look_at = [&](const std::vector<std::uint16_t>& values) {
+        std::uint16_t before_least = 65534, high = 0;  // 0 counts for nothing: below it comes the largest number
         for (const std::uint16_t x : values) {
-            least = std::min(least, x == 0 ? 65535u : x);
-            largest = std::max(largest, std::uint32_t(x));
+            before_least = std::min(before_least, std::uint16_t(x - 1));
+            high = std::max(high, x);
         }
+        least = std::min(least, before_least + 1u);
+        largest = std::max(largest, std::uint32_t(high));
     };
     std::uint32_t shortest5 = 5, longest5 = 11;
     if (const Adjacency* a = g.lattice.adjacency(); a && !a->length5.empty()) {
@@ -184,7 +190,9 @@ class BucketPlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
         work.check();
-        if (request.graph.lattice.adjacency()) return plan_with<kListed, ListedEdges>(request, work);
+        if (request.graph.lattice.adjacency())
+            return request.graph.height_plane.empty() ? plan_with<kListed, ListedEdges<false>>(request, work)
+                                                      : plan_with<kListed, ListedEdges<true>>(request, work);
         switch (request.graph.lattice.neighbourhood()) {
             case Neighbourhood::square4: return plan_on<4>(request, work);
             case Neighbourhood::square8: return plan_on<8>(request, work);

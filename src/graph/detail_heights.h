@@ -113,31 +113,37 @@ class EdgesByPlane : public EdgesOfNode<kSteps> {
     std::vector<std::array<std::uint16_t, kPlanes>> height_;
 };
 
-/// The edges of an irregular lattice; a step's number is its place in the whole adjacency.
+/// The edges of an irregular lattice, by node weights or by the height of each edge; a step's number is its place in
+/// the whole adjacency.
+template <bool kByHeight>
 class ListedEdges {
   public:
-    explicit ListedEdges(const WeightedLattice& g) : adjacency_(*g.lattice.adjacency()) {
-        if (!g.height_plane.empty()) {
-            height_.assign(g.height_plane[0].begin(), g.height_plane[0].end());
-            return;
-        }
-        height_.resize(adjacency_.to.size());
-        for (std::uint32_t u = 0; u < g.weight.size(); ++u)
-            for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e) {
-                const std::uint32_t own = g.weight[u], other = g.weight[adjacency_.to[e]];
-                if (own != kImpassable && other != kImpassable) height_[e] = own + other;
-            }
-    }
+    explicit ListedEdges(const WeightedLattice& g)
+        : adjacency_(*g.lattice.adjacency()), value_(kByHeight ? g.height_plane[0].data() : g.weight.data()) {}
     std::uint32_t length5(int edge) const { return adjacency_.length5[std::size_t(edge)]; }
     template <class Visit>
     void operator()(std::uint32_t u, Visit visit) const {
-        for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e)
-            if (height_[e] != 0) visit(adjacency_.to[e], height_[e], int(e));
+        const std::uint32_t first = adjacency_.first[u], end = adjacency_.first[u + 1];
+        const std::uint32_t own = kByHeight ? 0 : value_[u];
+        if (!kByHeight && own == kImpassable) return;
+        for (std::uint32_t e = first; e < end; ++e) {
+            const std::uint32_t v = adjacency_.to[e], value = value_[kByHeight ? e : v];
+            if (value != 0) visit(v, own + value, int(e));
+        }
+    }
+    /// Has what a node's edges are read from brought near.
+    void fetch(std::uint32_t u) const {
+        constexpr std::uint32_t kEdges = 12;  // most have as many
+        const std::uint32_t e = adjacency_.first[u];
+        __builtin_prefetch(adjacency_.to.data() + e);
+        __builtin_prefetch(adjacency_.to.data() + e + kEdges - 1);
+        __builtin_prefetch(adjacency_.length5.data() + e);
+        if (kByHeight) __builtin_prefetch(value_ + e);
     }
 
   private:
     const Adjacency& adjacency_;
-    std::vector<std::uint32_t> height_;
+    const std::uint16_t* value_;
 };
 
 }  // namespace dstylize

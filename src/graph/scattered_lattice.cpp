@@ -15,16 +15,17 @@ constexpr int kNearest = 12;
 using NearestNodes = std::vector<std::array<std::uint32_t, kNearest>>;  // unused places hold the node itself
 
 std::vector<Vec2f> scattered_positions(Extent e, Noise noise) {
-    std::vector<Vec2f> out;
-    out.reserve(e.count());
-    for (int j = 0; j < e.y; ++j)
+    std::vector<Vec2f> out(e.count());
+    tbb::parallel_for(0, e.y, [&](int j) {
         for (int i = 0; i < e.x; ++i) {
             const auto random = noise.block(std::uint64_t(j) << 32 | std::uint64_t(i));
             const float x = float(i) + (j % 2 == 0 ? -0.25f : 0.25f) + Noise::unit_of(random[0]);
             const float y = float(j) + Noise::unit_of(random[1]);
             constexpr float kRim = 0.02f;
-            out.push_back({std::clamp(x, kRim, float(e.x) - kRim), std::clamp(y, kRim, float(e.y) - kRim)});
+            out[std::size_t(j) * std::size_t(e.x) + std::size_t(i)] = {std::clamp(x, kRim, float(e.x) - kRim),
+                                                                       std::clamp(y, kRim, float(e.y) - kRim)};
         }
+    });
     return out;
 }
 
@@ -80,6 +81,18 @@ NearestNodes nearest_nodes(const std::vector<Vec2f>& position, const Grid<std::u
     return out;
 }
 
+/// Of every node a bit for each of its nearest that does not have it among its own.
+std::vector<std::uint16_t> one_way(const NearestNodes& nearest) {
+    std::vector<std::uint16_t> out(nearest.size());
+    tbb::parallel_for(std::uint32_t{0}, std::uint32_t(nearest.size()), [&](std::uint32_t n) {
+        for (std::size_t k = 0; k < kNearest; ++k) {
+            const auto& back = nearest[nearest[n][k]];
+            if (std::find(back.begin(), back.end(), n) == back.end()) out[n] |= std::uint16_t(1u << k);
+        }
+    });
+    return out;
+}
+
 }  // namespace
 
 Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise noise, const Work& work) {
@@ -87,13 +100,15 @@ Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise no
     auto a = std::make_shared<Adjacency>();
     a->position_lattice = scattered_positions(e, noise);
     const NearestNodes nearest = nearest_nodes(a->position_lattice, passable);
+    const std::vector<std::uint16_t> unanswered = one_way(nearest);
     work.check();
     const auto each_edge = [&](auto visit) {
         for (std::uint32_t n = 0; n < nearest.size(); ++n)
-            for (const std::uint32_t v : nearest[n]) {
+            for (std::size_t k = 0; k < kNearest; ++k) {
+                const std::uint32_t v = nearest[n][k];
                 if (v == n) continue;
                 visit(n, v);
-                if (std::find(nearest[v].begin(), nearest[v].end(), n) == nearest[v].end()) visit(v, n);
+                if (unanswered[n] >> k & 1) visit(v, n);
             }
     };
     std::vector<std::uint32_t> end(nearest.size() + 1, 0);
@@ -103,13 +118,13 @@ Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise no
     a->to.resize(end.back());
     each_edge([&](std::uint32_t from, std::uint32_t to) { a->to[end[from]++] = to; });
     a->length5.resize(a->to.size());
-    for (std::uint32_t n = 0; n < nearest.size(); ++n) {
+    tbb::parallel_for(std::uint32_t{0}, std::uint32_t(nearest.size()), [&](std::uint32_t n) {
         std::sort(a->to.begin() + a->first[n], a->to.begin() + a->first[n + 1]);
         for (std::uint32_t k = a->first[n]; k < a->first[n + 1]; ++k) {
             const float five = 5 * distance(a->position_lattice[n], a->position_lattice[a->to[k]]);
             a->length5[k] = std::uint8_t(std::clamp(five + 0.5f, 1.0f, 255.0f));
         }
-    }
+    });
     return Lattice(e, std::move(a));
 }
 
