@@ -77,10 +77,7 @@ class BucketSearch {
     Plan run(const Work& work) && {
         const auto is_stale = [this](const RadixQueue::Entry& e) { return bucket(key_[e.node]) != e.priority; };
         std::vector<RadixQueue::Entry> least;
-        const auto comes_soon = [this](const RadixQueue::Entry& e) {
-            if constexpr (requires { edges_.fetch(e.node); }) edges_.fetch(e.node);
-        };
-        for (std::size_t count = 0; queue_.take_least(least, is_stale, comes_soon); ++count) {
+        for (std::size_t count = 0; queue_.take_least(least, is_stale); ++count) {
             if (count % 1024 == 0) work.check();
             for (const RadixQueue::Entry& e : least)
                 if (!is_stale(e)) settle(e.node);

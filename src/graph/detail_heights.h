@@ -131,15 +131,6 @@ class ListedEdges {
             if (value != 0) visit(v, own + value, int(e));
         }
     }
-    /// Has what a node's edges are read from brought near.
-    void fetch(std::uint32_t u) const {
-        constexpr std::uint32_t kEdges = 12;  // most have as many
-        const std::uint32_t e = adjacency_.first[u];
-        __builtin_prefetch(adjacency_.to.data() + e);
-        __builtin_prefetch(adjacency_.to.data() + e + kEdges - 1);
-        __builtin_prefetch(adjacency_.length5.data() + e);
-        if (kByHeight) __builtin_prefetch(value_ + e);
-    }
 
   private:
     const Adjacency& adjacency_;

@@ -27,9 +27,9 @@ class RadixQueue {
     }
 
     /// Takes all entries of the least priority into `taken`, in no order; false when none is left.
-    /// Entries for which `is_stale` holds may be dropped on the way; `comes_soon` is told of those that move nearer.
-    template <class IsStale, class ComesSoon>
-    bool take_least(std::vector<Entry>& taken, IsStale is_stale, ComesSoon comes_soon) {
+    /// Entries for which `is_stale` holds may be dropped on the way.
+    template <class IsStale>
+    bool take_least(std::vector<Entry>& taken, IsStale is_stale) {
         taken.clear();
         while (levels_in_use_ != 0) {
             const unsigned level = unsigned(std::countr_zero(levels_in_use_));
@@ -44,11 +44,8 @@ class RadixQueue {
                 taken.swap(bucket);
                 return true;
             }
-            for (const Entry& e : bucket) {
-                if (is_stale(e)) continue;
-                comes_soon(e);
-                push(e);
-            }
+            for (const Entry& e : bucket)
+                if (!is_stale(e)) push(e);
             bucket.clear();
         }
         return false;
