@@ -54,7 +54,9 @@ Grid<float> correlated_noise(const Fields& fields, Purpose purpose, float cell_u
                        int(std::ceil(float(e.y) / nodes_per_cell)) + 1};
     Grid<float> coarse(cells);
     tbb::parallel_for(0, cells.y, [&](int j) {
-        for (int i = 0; i < cells.x; ++i) coarse(i, j) = noise.unit(std::uint64_t(j) << 32 | std::uint64_t(i)) - 0.5f;
+        const std::span row(coarse.row(j), std::size_t(cells.x));
+        noise.units(std::uint64_t(j) << 32, row);
+        for (float& v : row) v -= 0.5f;
     });
     coarse = blurred(coarse, sigma_u / cell_u);
     // The blur of independent samples of variance 1/12 by a Gaussian has variance 1 / (12 * 4 pi sigma^2).

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/branching.h"
@@ -52,7 +53,14 @@ void add_noise(Grid<float>& cost, const Fields& fields, const Round& round) {
     const StageParameters& stage = round.stage;
     if (stage.noise_white > 0) {
         const Noise noise(fields.seed(), Purpose::white_noise, round.substream());
-        each_index(cost.size(), [&](std::size_t n) { cost[n] += stage.noise_white * noise.unit(n); });
+        in_bands(cost.size(), [&](std::size_t begin, std::size_t end) {
+            std::array<float, 256> piece;
+            for (std::size_t n = begin; n < end; n += piece.size()) {
+                const std::span units(piece.data(), std::min(piece.size(), end - n));
+                noise.units(n, units);
+                for (std::size_t k = 0; k < units.size(); ++k) cost[n + k] += stage.noise_white * units[k];
+            }
+        });
     }
     if (stage.noise_smooth > 0) {
         const Grid<float> noise = fractal_noise(fields, stage.noise_scale, round.substream());

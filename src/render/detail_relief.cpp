@@ -112,7 +112,7 @@ Grid<float> cloud(const DisplayList& list, float cell_px, std::uint64_t seed, st
                        std::max(2, int(std::lround(list.height_px / cell_px)))};
     const Noise noise(seed, Purpose::relief, stream);
     Grid<float> coarse(cells);
-    for (std::size_t n = 0; n < coarse.size(); ++n) coarse[n] = noise.unit(n);
+    noise.units(0, coarse);
     return resized(coarse, size);
 }
 

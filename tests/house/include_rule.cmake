@@ -20,7 +20,7 @@ set(may_pipeline
     "core;graph;geometry;imaging;importance;stipple;dendrite;stroke;metaphor;render;formats;text;pipeline")
 set(may_app "core;pipeline;app")
 # The rooms allowed to name a third-party header.
-set(owner_hwy "graph")
+set(owner_hwy "core;graph")
 set(owner_opencv2 "imaging")
 set(owner_OpenImageIO "codec")
 set(owner_lcms2 "codec")

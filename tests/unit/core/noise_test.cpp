@@ -1,8 +1,10 @@
 #include "core/noise.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <set>
+#include <vector>
 
 namespace dstylize {
 namespace {
@@ -21,6 +23,22 @@ TEST(Noise, IsPhilox4x32With10Rounds) {
 TEST(Noise, BitsAreTheFirstWord) {
     const Noise noise(42, Purpose::swirl, 3);
     for (std::uint64_t i = 0; i < 100; ++i) EXPECT_EQ(noise.bits(i), noise.block(i)[0]);
+}
+
+TEST(Noise, UnitsAreUnitOfEachIndexOnEveryInstructionSet) {
+    const Noise noise(7, Purpose::white_noise, 2);
+    for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+        hwy::SetSupportedTargetsForTest(rest & -rest);
+        SCOPED_TRACE(hwy::TargetName(rest & -rest));
+        for (const std::uint64_t first : {std::uint64_t{0}, (std::uint64_t{1} << 32) - 50, ~std::uint64_t{0} - 1000})
+            for (const std::size_t count : {0u, 1u, 31u, 32u, 33u, 200u}) {
+                std::vector<float> units(count);
+                noise.units(first, units);
+                for (std::size_t k = 0; k < count; ++k)
+                    EXPECT_EQ(units[k], noise.unit(first + k)) << first << " + " << k;
+            }
+    }
+    hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST(Noise, UnitIsUniformBelowOne) {
