@@ -11,7 +11,7 @@ class Slurm : public FolderTest {
   protected:
     static constexpr int kPictures = 24, kShards = 4;
     // A shard takes seconds, so that a node can be caught in the middle of one.
-    const Words style_{"--style", "ink", "--detail", "1600"};
+    const Words style_{"--style", "vine", "--detail", "1600"};
 
     Slurm() {
         fs::remove_all(folder_ / "photos");
