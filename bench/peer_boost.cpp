@@ -100,7 +100,8 @@ namespace dstylize {
 
 LabelColumn boost_labels(const WeightedLattice& graph, NodeId source) {
     const dstylize_grid::Grid8 grid(graph);
-    UnsetVector<std::uint32_t> sum(grid.size()), before(grid.size());
+    UnsetVector<std::uint32_t> sum(grid.size());
+    std::vector<std::uint32_t> before(grid.size());
     const auto cost = boost::make_function_property_map<dstylize_grid::Edge, std::uint32_t>(
         [&grid](dstylize_grid::Edge e) { return grid.cost(e); });
     boost::dijkstra_shortest_paths_no_color_map(

@@ -11,6 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// The two halves of 64-bit products.
 struct Product {
     hn::Vec<hn::ScalableTag<std::uint32_t>> high, low;
 };

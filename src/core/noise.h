@@ -50,7 +50,7 @@ class Noise {
         return c;
     }
 
-    // What the generator consists of, for units().
+    // What the generator consists of: units() needs it for each instruction set.
     struct Stream {
         std::array<std::uint32_t, 2> key;
         std::uint32_t purpose, substream;

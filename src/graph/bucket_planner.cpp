@@ -126,12 +126,14 @@ struct EdgeRange {
 EdgeRange edge_range(const WeightedLattice& g) {
     std::uint32_t least = 65535, largest = 1;
     const auto look_at = [&](const std::vector<std::uint16_t>& values) {
-        std::uint16_t before_least = 65534, high = 0;  // 0 counts for nothing: below it comes the largest number
+        // Less 1, so that 0, which is no edge, becomes the largest: without a branch the compiler takes several at
+        // once.
+        std::uint16_t least_less_1 = 65534, high = 0;
         for (const std::uint16_t x : values) {
-            before_least = std::min(before_least, std::uint16_t(x - 1));
+            least_less_1 = std::min(least_less_1, std::uint16_t(x - 1));
             high = std::max(high, x);
         }
-        least = std::min(least, before_least + 1u);
+        least = std::min(least, least_less_1 + 1u);
         largest = std::max(largest, std::uint32_t(high));
     };
     std::uint32_t shortest5 = 5, longest5 = 11;

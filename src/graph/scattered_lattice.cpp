@@ -82,7 +82,7 @@ NearestNodes nearest_nodes(const std::vector<Vec2f>& position, const Grid<std::u
 }
 
 /// Of every node a bit for each of its nearest that does not have it among its own.
-std::vector<std::uint16_t> one_way(const NearestNodes& nearest) {
+std::vector<std::uint16_t> one_way_edges(const NearestNodes& nearest) {
     std::vector<std::uint16_t> out(nearest.size());
     tbb::parallel_for(std::uint32_t{0}, std::uint32_t(nearest.size()), [&](std::uint32_t n) {
         for (std::size_t k = 0; k < kNearest; ++k) {
@@ -100,7 +100,7 @@ Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise no
     auto a = std::make_shared<Adjacency>();
     a->position_lattice = scattered_positions(e, noise);
     const NearestNodes nearest = nearest_nodes(a->position_lattice, passable);
-    const std::vector<std::uint16_t> unanswered = one_way(nearest);
+    const std::vector<std::uint16_t> one_way = one_way_edges(nearest);
     work.check();
     const auto each_edge = [&](auto visit) {
         for (std::uint32_t n = 0; n < nearest.size(); ++n)
@@ -108,7 +108,7 @@ Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise no
                 const std::uint32_t v = nearest[n][k];
                 if (v == n) continue;
                 visit(n, v);
-                if (unanswered[n] >> k & 1) visit(v, n);
+                if (one_way[n] >> k & 1) visit(v, n);
             }
     };
     std::vector<std::uint32_t> end(nearest.size() + 1, 0);

@@ -55,7 +55,7 @@ void run_workers(int workers, const Body& body) {
     tbb::parallel_for(0, workers, body, tbb::simple_partitioner());
 }
 
-/// Calls body(first, end) for parts of 0 ... count that lie apart, each by a worker of its own.
+/// Calls body(first, end) for parts that together are the indices below `count`, one for each worker.
 template <class Body>
 void share_out(std::size_t count, const Work& work, const Body& body) {
     const std::size_t workers = std::min(std::size_t(thread_count(work)), count);
