@@ -9,6 +9,7 @@
 #include "graph/detail_tile_costs-inl.h"
 #include "graph/detail_tile_low_parents-inl.h"
 #include "graph/detail_tile_parents-inl.h"
+#include "graph/detail_tile_sift-inl.h"
 #include "graph/detail_tile_sweeps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -170,6 +171,7 @@ namespace dstylize {
 
 HWY_EXPORT(visit_tile);
 HWY_EXPORT(find_parents);
+HWY_EXPORT(sift_tile);
 HWY_EXPORT(largest_value);
 
 TileScratch::TileScratch() = default;
@@ -181,6 +183,11 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
 
 void find_parents(const ParentRequest& request, int first_row, int end_row, std::span<std::uint8_t> step) {
     HWY_DYNAMIC_DISPATCH(find_parents)(request, first_row, end_row, step.data());
+}
+
+void sift_tile(const WeightedLattice& graph, const Tiling& tiling, int tile,
+               std::span<const std::uint64_t, kWindow> sources, SiftedTile& sifted) {
+    HWY_DYNAMIC_DISPATCH(sift_tile)(graph, tiling, tile, sources, sifted);
 }
 
 std::uint16_t largest_value(std::span<const std::uint16_t> values) {

@@ -24,18 +24,18 @@
 // Parents follow from labels at rest, row by row; owners from parents.
 #include "graph/tile_planner.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <optional>
 #include <vector>
 
 #include "graph/bucket_planner.h"
+#include "graph/detail_owners.h"
 #include "graph/detail_sources.h"
+#include "graph/detail_spanning_forest.h"
 #include "graph/detail_tile_queue.h"
 #include "graph/detail_tiles.h"
+#include "graph/detail_workers.h"
 
 namespace dstylize {
 namespace {
@@ -45,25 +45,6 @@ constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
 constexpr std::uint32_t kLargestBottleneck = 65534;
 /// Above that 16-bit windows see too few steps ahead.
 constexpr std::uint32_t kLargestNarrowStep = 20000;
-
-int thread_count(const Work& work) { return work.threads > 0 ? work.threads : tbb::this_task_arena::max_concurrency(); }
-
-/// Calls body(worker) for each of so many workers, of which some may run after one another. They are the caller's
-/// threads: one that does other work now can come later.
-template <class Body>
-void run_workers(int workers, const Body& body) {
-    tbb::parallel_for(0, workers, body, tbb::simple_partitioner());
-}
-
-/// Calls body(first, end) for parts that together are the indices below `count`, one for each worker.
-template <class Body>
-void share_out(std::size_t count, const Work& work, const Body& body) {
-    const std::size_t workers = std::min(std::size_t(thread_count(work)), count);
-    run_workers(int(workers), [&](int worker) {
-        const std::size_t w = std::size_t(worker);
-        body(count * w / workers, count * (w + 1) / workers);
-    });
-}
 
 /// The highest edge that there can be, and the longest step.
 struct EdgeBounds {
@@ -131,59 +112,17 @@ ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& 
     return {g.lattice, std::move(step)};
 }
 
-/// Entries of the owners' palette: 0 for none. Each node once: up to where the owner is known, and back.
-template <class Entry>
-UnsetVector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
-                                      const std::vector<Entry>& of_source) {
-    UnsetVector<Entry> entry(sum.size(), Entry{0});
-    for (std::size_t k = 0; k < sources.size(); ++k)
-        if (parent[index(sources[k].node)] == kNoNode) entry[index(sources[k].node)] = of_source[k];
-    std::vector<std::uint32_t> way;
-    for (std::uint32_t n = 0; n < entry.size(); ++n) {
-        if (sum[n] == kUnreached) continue;
-        std::uint32_t at = n;
-        for (; entry[at] == 0; at = index(parent[at])) way.push_back(at);
-        for (const std::uint32_t on_way : way) entry[on_way] = entry[at];
-        way.clear();
-    }
-    return entry;
-}
-
-OwnerColumn owners(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
-                   const Work& work) {
-    std::vector<std::uint16_t> palette;
-    for (const Source& s : sources) palette.push_back(s.owner);
-    std::sort(palette.begin(), palette.end());
-    palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
-    palette.insert(palette.begin(), Plan::kNoOwner);
-    if (palette.size() == 2) {
-        UnsetVector<std::uint8_t> entry(sum.size());
-        share_out(sum.size(), work, [&](std::size_t first, std::size_t end) {
-            for (std::size_t n = first; n < end; ++n) entry[n] = sum[n] != kUnreached;
-        });
-        return {std::move(palette), std::move(entry)};
-    }
-    std::vector<std::uint16_t> of_source;
-    for (const Source& s : sources)
-        of_source.push_back(
-            std::uint16_t(std::lower_bound(palette.begin() + 1, palette.end(), s.owner) - palette.begin()));
-    if (palette.size() <= 256) {
-        const std::vector<std::uint8_t> narrow(of_source.begin(), of_source.end());
-        return {std::move(palette), entries_by_parents(sum, parent, sources, narrow)};
-    }
-    const UnsetVector<std::uint16_t> entry = entries_by_parents(sum, parent, sources, of_source);
-    std::vector<std::uint16_t> owner(entry.size());
-    for (std::size_t n = 0; n < owner.size(); ++n) owner[n] = palette[entry[n]];
-    return owner;
-}
-
 /// The plan by tiles, or nothing where they do not serve.
 std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStats& stats) {
     const WeightedLattice& g = request.graph;
     const bool has_bottlenecks = request.metric == Metric::max_sum;
-    if (g.lattice.adjacency() || (request.metric != Metric::sum && !has_bottlenecks)) return {};
+    if (g.lattice.adjacency() || request.metric == Metric::blend) return {};
     const std::vector<Source> sources = distinct_sources(request);
     const EdgeBounds bounds = edge_bounds(g);
+    if (request.metric == Metric::lexicographic) {
+        stats.tiles = std::uint64_t(Tiling(g.lattice).count());
+        return plan_spanning_forest(request, sources, bounds.height, work);
+    }
     const bool wide = bounds.cost() > kLargestNarrowStep;
     if (has_bottlenecks && bounds.height > kLargestBottleneck) return {};
 
@@ -210,7 +149,7 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     if (!settle_labels(sums, sources, work, stats)) return {};
     stats.tiles = std::uint64_t(tiling.count());
     ParentColumn parent = parents(g, sum, bottleneck, bounds.cost(), sources, work);
-    OwnerColumn owner = owners(sum, parent, sources, work);
+    OwnerColumn owner = owners_by_parents(sum, parent, sources, work);
     return Plan{{std::move(sum), std::move(bottleneck)}, std::move(parent), std::move(owner)};
 }
 

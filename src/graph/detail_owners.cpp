@@ -1,0 +1,61 @@
+#include "graph/detail_owners.h"
+
+#include <algorithm>
+
+#include "graph/detail_workers.h"
+
+namespace dstylize {
+namespace {
+
+using Labels = UnsetVector<std::uint32_t>;
+constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
+
+/// Entries of the owners' palette: 0 for none. Each node once: up to where the owner is known, and back.
+template <class Entry>
+UnsetVector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+                                      const std::vector<Entry>& of_source) {
+    UnsetVector<Entry> entry(sum.size(), Entry{0});
+    for (std::size_t k = 0; k < sources.size(); ++k)
+        if (parent[index(sources[k].node)] == kNoNode) entry[index(sources[k].node)] = of_source[k];
+    std::vector<std::uint32_t> way;
+    for (std::uint32_t n = 0; n < entry.size(); ++n) {
+        if (sum[n] == kUnreached) continue;
+        std::uint32_t at = n;
+        for (; entry[at] == 0; at = index(parent[at])) way.push_back(at);
+        for (const std::uint32_t on_way : way) entry[on_way] = entry[at];
+        way.clear();
+    }
+    return entry;
+}
+
+}  // namespace
+
+OwnerColumn owners_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+                              const Work& work) {
+    std::vector<std::uint16_t> palette;
+    for (const Source& s : sources) palette.push_back(s.owner);
+    std::sort(palette.begin(), palette.end());
+    palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
+    palette.insert(palette.begin(), Plan::kNoOwner);
+    if (palette.size() == 2) {
+        UnsetVector<std::uint8_t> entry(sum.size());
+        share_out(sum.size(), work, [&](std::size_t first, std::size_t end) {
+            for (std::size_t n = first; n < end; ++n) entry[n] = sum[n] != kUnreached;
+        });
+        return {std::move(palette), std::move(entry)};
+    }
+    std::vector<std::uint16_t> of_source;
+    for (const Source& s : sources)
+        of_source.push_back(
+            std::uint16_t(std::lower_bound(palette.begin() + 1, palette.end(), s.owner) - palette.begin()));
+    if (palette.size() <= 256) {
+        const std::vector<std::uint8_t> narrow(of_source.begin(), of_source.end());
+        return {std::move(palette), entries_by_parents(sum, parent, sources, narrow)};
+    }
+    const UnsetVector<std::uint16_t> entry = entries_by_parents(sum, parent, sources, of_source);
+    std::vector<std::uint16_t> owner(entry.size());
+    for (std::size_t n = 0; n < owner.size(); ++n) owner[n] = palette[entry[n]];
+    return owner;
+}
+
+}  // namespace dstylize
