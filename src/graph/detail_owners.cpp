@@ -7,19 +7,16 @@
 namespace dstylize {
 namespace {
 
-using Labels = UnsetVector<std::uint32_t>;
-constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
-
 /// Entries of the owners' palette: 0 for none. Each node once: up to where the owner is known, and back.
 template <class Entry>
-UnsetVector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
+UnsetVector<Entry> entries_by_parents(const ParentColumn& parent, const std::vector<Source>& sources,
                                       const std::vector<Entry>& of_source) {
-    UnsetVector<Entry> entry(sum.size(), Entry{0});
+    UnsetVector<Entry> entry(parent.size(), Entry{0});
     for (std::size_t k = 0; k < sources.size(); ++k)
         if (parent[index(sources[k].node)] == kNoNode) entry[index(sources[k].node)] = of_source[k];
     std::vector<std::uint32_t> way;
     for (std::uint32_t n = 0; n < entry.size(); ++n) {
-        if (sum[n] == kUnreached) continue;
+        if (parent[n] == kNoNode) continue;
         std::uint32_t at = n;
         for (; entry[at] == 0; at = index(parent[at])) way.push_back(at);
         for (const std::uint32_t on_way : way) entry[on_way] = entry[at];
@@ -30,18 +27,21 @@ UnsetVector<Entry> entries_by_parents(const Labels& sum, const ParentColumn& par
 
 }  // namespace
 
-OwnerColumn owners_by_parents(const Labels& sum, const ParentColumn& parent, const std::vector<Source>& sources,
-                              const Work& work) {
+OwnerColumn owners_by_parents(const ParentColumn& parent, const std::vector<Source>& sources, const Work& work) {
     std::vector<std::uint16_t> palette;
     for (const Source& s : sources) palette.push_back(s.owner);
     std::sort(palette.begin(), palette.end());
     palette.erase(std::unique(palette.begin(), palette.end()), palette.end());
     palette.insert(palette.begin(), Plan::kNoOwner);
     if (palette.size() == 2) {
-        UnsetVector<std::uint8_t> entry(sum.size());
-        share_out(sum.size(), work, [&](std::size_t first, std::size_t end) {
-            for (std::size_t n = first; n < end; ++n) entry[n] = sum[n] != kUnreached;
+        UnsetVector<std::uint8_t> entry(parent.size());
+        const std::span<const std::uint8_t> steps = parent.steps();
+        share_out(parent.size(), work, [&](std::size_t first, std::size_t end) {
+            std::transform(steps.begin() + std::ptrdiff_t(first), steps.begin() + std::ptrdiff_t(end),
+                           entry.begin() + std::ptrdiff_t(first),
+                           [](std::uint8_t step) { return std::uint8_t(step != ParentColumn::kNoStep); });
         });
+        for (const Source& s : sources) entry[index(s.node)] = 1;
         return {std::move(palette), std::move(entry)};
     }
     std::vector<std::uint16_t> of_source;
@@ -50,9 +50,9 @@ OwnerColumn owners_by_parents(const Labels& sum, const ParentColumn& parent, con
             std::uint16_t(std::lower_bound(palette.begin() + 1, palette.end(), s.owner) - palette.begin()));
     if (palette.size() <= 256) {
         const std::vector<std::uint8_t> narrow(of_source.begin(), of_source.end());
-        return {std::move(palette), entries_by_parents(sum, parent, sources, narrow)};
+        return {std::move(palette), entries_by_parents(parent, sources, narrow)};
     }
-    const UnsetVector<std::uint16_t> entry = entries_by_parents(sum, parent, sources, of_source);
+    const UnsetVector<std::uint16_t> entry = entries_by_parents(parent, sources, of_source);
     std::vector<std::uint16_t> owner(entry.size());
     for (std::size_t n = 0; n < owner.size(); ++n) owner[n] = palette[entry[n]];
     return owner;

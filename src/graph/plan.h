@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/grid.h"
@@ -26,14 +27,22 @@ struct PathLabel {
 class LabelColumn {
   public:
     static constexpr std::uint32_t kUnreached32 = std::numeric_limits<std::uint32_t>::max();
+    struct Narrow {
+        std::uint32_t sum, highest;
+    };
     LabelColumn() = default;
     LabelColumn(std::vector<PathLabel> labels) : wide_(std::move(labels)) {}
     /// Sums below kUnreached32, which stands for "unreached"; `highest` is empty where all are 0.
     LabelColumn(UnsetVector<std::uint32_t> sum, UnsetVector<std::uint32_t> highest)
         : sum_(std::move(sum)), highest_(std::move(highest)) {}
+    LabelColumn(UnsetVector<Narrow> labels) : narrow_(std::move(labels)) {}
 
-    std::size_t size() const { return wide_.size() + sum_.size(); }
+    std::size_t size() const { return wide_.size() + sum_.size() + narrow_.size(); }
     PathLabel operator[](std::size_t n) const {
+        if (!narrow_.empty()) {
+            if (narrow_[n].sum == kUnreached32) return {};
+            return {narrow_[n].highest, narrow_[n].sum};
+        }
         if (sum_.empty()) return wide_[n];
         if (sum_[n] == kUnreached32) return {};
         return {highest_.empty() ? 0 : highest_[n], sum_[n]};
@@ -42,7 +51,8 @@ class LabelColumn {
 
   private:
     std::vector<PathLabel> wide_;
-    UnsetVector<std::uint32_t> sum_, highest_;
+    UnsetVector<std::uint32_t> sum_, highest_;  // column by column, or
+    UnsetVector<Narrow> narrow_;                // node by node, as they were filled
 };
 
 /// Parents: 1 byte on a regular lattice, the number of the step that leads from the parent to the node.
@@ -59,6 +69,8 @@ class ParentColumn {
         if (step_.empty()) return wide_[n];
         return step_[n] == kNoStep ? kNoNode : NodeId{std::uint32_t(n) - offset_[step_[n]]};
     }
+    /// The steps; none where the column is wide.
+    std::span<const std::uint8_t> steps() const { return step_; }
     friend bool operator==(const ParentColumn& a, const ParentColumn& b);
 
   private:

@@ -12,6 +12,7 @@
 //     that closes a ring with it.
 // Open edges and those between tiles, 0.1 a node, are sorted and taken in order for the whole lattice (Kruskal).
 // Then a walk from the sources along the forest gives parents and labels.
+#include <hwy/cache_control.h>
 #include <hwy/contrib/sort/vqsort.h>
 
 #include <algorithm>
@@ -36,6 +37,18 @@ Index root_of(Index* parent, Index n) {
     while (parent[n] != n) n = parent[n] = parent[parent[n]];
     return n;
 }
+
+/// A node's label takes shape in place, so that a walk touches one line of memory a node. Until it is reached `sum`
+/// has its weight and `highest` the steps of its edges that are in the forest, a bit each, above kStepShift; then, its
+/// label, kReached and the step that led to it.
+using NodeRecord = LabelColumn::Narrow;
+constexpr unsigned kStepShift = 24;
+constexpr std::uint32_t kReached = 1u << (kStepShift - 1), kHighest = kReached - 1;
+
+NodeRecord unreached(NodeWeight weight, std::uint8_t steps) {
+    return {.sum = weight, .highest = std::uint32_t{steps} << kStepShift};
+}
+void add_step(NodeRecord& node, unsigned step) { node.highest |= 1u << (kStepShift + step); }
 
 constexpr std::uint16_t kNoTree = 0xffff;
 
@@ -65,8 +78,8 @@ class TileGrower {
   public:
     TileGrower(const WeightedLattice& graph, const Tiling& tiling) : graph_(graph), tiling_(tiling) {}
 
-    /// `steps`: bit s of a node, the edge by step s is in the forest; set for the tile's own nodes.
-    TileForest grow(int tile, std::span<const std::uint16_t> sources, std::span<std::uint8_t> steps) {
+    /// Of `nodes`, sets the tile's own.
+    TileForest grow(int tile, std::span<const std::uint16_t> sources, std::span<NodeRecord> nodes) {
         std::array<std::uint64_t, kWindow> is_source{};
         for (const int n : sources) is_source[std::size_t(n / kWindow)] |= std::uint64_t{1} << n % kWindow;
         sift_tile(graph_, tiling_, tile, is_source, sifted_);
@@ -74,7 +87,7 @@ class TileGrower {
         begin(sources);
         for (std::size_t i = 0; i < sifted_.edge_count; ++i) take(TileEdge(sifted_.edge[i]));
         TileForest out = numbered(sources);
-        store(tile, steps);
+        store(tile, nodes);
         return out;
     }
 
@@ -133,13 +146,17 @@ class TileGrower {
         return out;
     }
 
-    void store(int tile, std::span<std::uint8_t> steps) const {
+    void store(int tile, std::span<NodeRecord> nodes) const {
         const Extent e = graph_.lattice.extent();
         const Offset origin = tiling_.origin(tile);
         const int width = std::min(TileForest::kSide, e.x - origin.dx - 1);
-        for (int y = 1; y < kWindow - 1 && origin.dy + y < e.y; ++y)
-            std::copy_n(sifted_.steps.data() + y * kWindow + 1, width,
-                        steps.data() + index(graph_.lattice.at(origin.dx + 1, origin.dy + y)));
+        for (int y = 1; y < kWindow - 1 && origin.dy + y < e.y; ++y) {
+            const std::uint32_t first = index(graph_.lattice.at(origin.dx + 1, origin.dy + y));
+            for (int x = 0; x < width; ++x) {
+                const std::uint32_t n = first + std::uint32_t(x);
+                nodes[n] = unreached(graph_.weight[n], sifted_.steps.data()[y * kWindow + 1 + x]);
+            }
+        }
     }
 
     const WeightedLattice& graph_;
@@ -168,7 +185,7 @@ class ForestByTiles {
           work_(work),
           sources_of_(std::size_t(tiling_.count())),
           forest_(sources_of_.size()),
-          steps_(graph.lattice.node_count()) {
+          node_(graph.lattice.node_count()) {
         for (const Source& s : sources) {
             const int i = graph.lattice.column(s.node), j = graph.lattice.row(s.node), tile = tiling_.tile_of(i, j);
             const Offset o = tiling_.origin(tile);
@@ -176,14 +193,13 @@ class ForestByTiles {
         }
     }
 
-    /// Of every node: bit s, the edge by step s is in the forest.
-    UnsetVector<std::uint8_t> steps() && {
+    UnsetVector<NodeRecord> unreached_nodes() && {
         grow_tiles();
         std::vector<Joint> joints = all_joints();
         work_.check();
         std::sort(joints.begin(), joints.end());
         join(joints);
-        return std::move(steps_);
+        return std::move(node_);
     }
 
   private:
@@ -193,7 +209,7 @@ class ForestByTiles {
             const auto grower = std::make_unique<TileGrower>(graph_, tiling_);
             for (int tile; (tile = next++) < tiling_.count();) {
                 work_.check();
-                forest_[std::size_t(tile)] = grower->grow(tile, sources_of_[std::size_t(tile)], steps_);
+                forest_[std::size_t(tile)] = grower->grow(tile, sources_of_[std::size_t(tile)], node_);
             }
         });
     }
@@ -256,9 +272,8 @@ class ForestByTiles {
             const std::uint32_t u = std::uint32_t(j.key >> 2);
             const std::size_t forward = j.key & 3;
             const Offset ahead = kForward[forward];
-            steps_[u] |= std::uint8_t(1u << kForwardStep[forward]);
-            steps_[u + std::uint32_t(ahead.dy) * width + std::uint32_t(ahead.dx)] |=
-                std::uint8_t(1u << (kForwardStep[forward] ^ 1u));
+            add_step(node_[u], kForwardStep[forward]);
+            add_step(node_[u + std::uint32_t(ahead.dy) * width + std::uint32_t(ahead.dx)], kForwardStep[forward] ^ 1u);
         }
     }
 
@@ -268,16 +283,32 @@ class ForestByTiles {
     std::vector<std::vector<std::uint16_t>> sources_of_;  // of each tile, nodes of its window
     std::vector<TileForest> forest_;
     std::vector<std::uint32_t> first_tree_;
-    UnsetVector<std::uint8_t> steps_;
+    UnsetVector<NodeRecord> node_;
 };
 
-/// Nodes that wait to be walked on from, for several workers: what lies behind them has nothing in common.
+/// A node that is to be reached by a step from one with this weight. One word: what is read back at once has to be
+/// read as it was written.
+class Arrival {
+  public:
+    Arrival() = default;
+    Arrival(std::uint32_t node, unsigned step, std::uint32_t weight_before)
+        : word_(std::uint64_t{step} << 48 | std::uint64_t{weight_before} << 32 | node) {}
+    std::uint32_t node() const { return std::uint32_t(word_); }
+    unsigned step() const { return unsigned(word_ >> 48); }
+    std::uint32_t weight_before() const { return std::uint32_t(word_ >> 32) & 0xffff; }
+
+  private:
+    std::uint64_t word_;
+};
+
+/// Nodes to walk on from, for several workers: what lies behind them has nothing in common.
 class WalkPool {
   public:
-    explicit WalkPool(std::vector<std::uint32_t> nodes) : nodes_(std::move(nodes)) {}
+    /// Before any worker joins.
+    void add(std::span<const Arrival> nodes) { nodes_.insert(nodes_.end(), nodes.begin(), nodes.end()); }
 
     /// Some of the nodes, or false when no worker has any left.
-    bool take(std::vector<std::uint32_t>& stack) {
+    bool take(UnsetVector<Arrival>& stack) {
         std::unique_lock lock(mutex_);
         --busy_;
         ++hungry_;
@@ -295,7 +326,7 @@ class WalkPool {
     }
     bool is_hungry() const { return hungry_.load(std::memory_order_relaxed) > 0; }
     /// Gives the oldest half of a stack away: large parts lie behind these.
-    void give(std::vector<std::uint32_t>& stack) {
+    void give(UnsetVector<Arrival>& stack) {
         const std::lock_guard lock(mutex_);
         const std::ptrdiff_t count = std::ptrdiff_t(stack.size() / 2);
         nodes_.insert(nodes_.end(), stack.begin(), stack.begin() + count);
@@ -310,93 +341,132 @@ class WalkPool {
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::vector<std::uint32_t> nodes_;
+    UnsetVector<Arrival> nodes_;
     int busy_ = 0;
     std::atomic<int> hungry_{0};
 };
 
-/// Parents and labels along the forest.
+/// Parents and labels along the forest. Next to nothing is computed for a node, but where it lies in memory no
+/// processor guesses: so several ways are followed in turns, and what each comes to next is asked for a turn ahead.
 class ForestWalk {
   public:
-    ForestWalk(const WeightedLattice& graph, UnsetVector<std::uint8_t> forest, const Work& work)
-        : graph_(graph),
-          work_(work),
-          forest_(std::move(forest)),
-          step_(forest_.size()),
-          sum_(forest_.size()),
-          highest_(forest_.size()) {
+    ForestWalk(const WeightedLattice& graph, UnsetVector<NodeRecord> nodes, const Work& work)
+        : graph_(graph), work_(work), node_(std::move(nodes)) {
         const auto steps = graph.lattice.steps();
         for (std::size_t s = 0; s < steps.size(); ++s)
             ahead_[s] = {std::uint32_t(steps[s].dy * graph.lattice.extent().x + steps[s].dx), steps[s].length5};
-        share_out(forest_.size(), work, [&](std::size_t first, std::size_t end) {
-            std::fill(step_.begin() + std::ptrdiff_t(first), step_.begin() + std::ptrdiff_t(end),
-                      ParentColumn::kNoStep);
-            std::fill(sum_.begin() + std::ptrdiff_t(first), sum_.begin() + std::ptrdiff_t(end),
-                      LabelColumn::kUnreached32);
-        });
     }
 
     std::optional<Plan> run(const std::vector<Source>& sources) && {
-        std::vector<std::uint32_t> nodes;
+        WalkPool pool;
         for (const Source& s : sources) {
-            if (s.start >= LabelColumn::kUnreached32) return {};
-            sum_[index(s.node)] = std::uint32_t(s.start);
-            highest_[index(s.node)] = 0;
-            nodes.push_back(index(s.node));
+            if (s.start >= kUnreached) return {};
+            std::array<Arrival, 8> next;
+            const std::size_t count =
+                settle(index(s.node), std::uint32_t(s.start), 0, ParentColumn::kNoStep, next.data());
+            pool.add({next.data(), count});
         }
-        WalkPool pool(std::move(nodes));
         run_workers(thread_count(work_),
                     [&](int) { graph_.height_plane.empty() ? walk<false>(pool) : walk<true>(pool); });
         work_.check();
         if (!fits_) return {};
-        ParentColumn parent(graph_.lattice, std::move(step_));
-        OwnerColumn owner = owners_by_parents(sum_, parent, sources, work_);
-        return Plan{{std::move(sum_), std::move(highest_)}, std::move(parent), std::move(owner)};
+        ParentColumn parent(graph_.lattice, finish_labels());
+        OwnerColumn owner = owners_by_parents(parent, sources, work_);
+        return Plan{std::move(node_), std::move(parent), std::move(owner)};
     }
 
   private:
+    static constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
+    static constexpr std::size_t kWays = 16;
+    static constexpr std::size_t kMostChildren = 7;
+
     template <bool kPlanes>
     void walk(WalkPool& pool) {
         constexpr std::size_t kWorthGiving = 8;
-        std::vector<std::uint32_t> stack;
+        UnsetVector<Arrival> waiting;
+        std::array<Arrival, kWays> way;
+        std::size_t ways = 0;
         pool.join();
         for (;;) {
-            if (stack.empty()) {
-                if (work_.stop.stop_requested()) fits_ = false;
-                if (!pool.take(stack)) return;
+            if (work_.stop.stop_requested()) fits_ = false;
+            if (!fits_.load(std::memory_order_relaxed)) waiting.clear(), ways = 0;
+            for (; ways < kWays && !waiting.empty(); waiting.pop_back()) way[ways++] = waiting.back();
+            if (ways == 0) {
+                if (!pool.take(waiting)) break;
+                continue;
             }
-            if (pool.is_hungry() && stack.size() > kWorthGiving) pool.give(stack);
-            const std::uint32_t from = stack.back();
-            stack.pop_back();
-            if (fits_.load(std::memory_order_relaxed)) follow<kPlanes>(from, stack);
+            if (pool.is_hungry() && waiting.size() > kWorthGiving) pool.give(waiting);
+            ways = follow<kPlanes>({way.data(), ways}, waiting);
         }
     }
 
-    /// The last of a node's children is followed at once, the others wait.
+    /// Every way some nodes on; what waits is the next on a way that ends. Returns how many ways are left.
     template <bool kPlanes>
-    void follow(std::uint32_t u, std::vector<std::uint32_t>& stack) {
-        for (;;) {
-            unsigned children = forest_[u];
-            if (step_[u] != ParentColumn::kNoStep) children &= ~(1u << (step_[u] ^ 1u));
-            if (children == 0) return;
-            const std::uint32_t next = enter<kPlanes>(u, unsigned(std::countr_zero(children)));
-            for (children &= children - 1; children != 0; children &= children - 1)
-                stack.push_back(enter<kPlanes>(u, unsigned(std::countr_zero(children))));
-            u = next;
+    std::size_t follow(std::span<Arrival> way, UnsetVector<Arrival>& waiting) {
+        constexpr std::size_t kTurns = 64;
+        std::size_t ways = way.size(), top = waiting.size();
+        waiting.resize(top + kTurns * kWays * kMostChildren);
+        for (std::size_t turn = 0; turn < kTurns; ++turn) {
+            for (std::size_t w = 0; w < ways; ++w) {
+                top += reach<kPlanes>(way[w], waiting.data() + top);
+                if (top == 0) {
+                    way[w--] = way[--ways];
+                    continue;
+                }
+                way[w] = waiting[--top];
+                hwy::Prefetch(&node_[way[w].node()]);
+            }
         }
+        waiting.resize(top);
+        return ways;
     }
 
     template <bool kPlanes>
-    std::uint32_t enter(std::uint32_t u, unsigned step) {
-        const std::uint32_t v = u + ahead_[step].offset;
-        const std::uint32_t height = kPlanes ? graph_.height_plane[step / 2][step % 2 == 0 ? u : v]
-                                             : std::uint32_t(graph_.weight[u]) + graph_.weight[v];
-        const std::uint64_t sum = sum_[u] + std::uint64_t{height} * ahead_[step].length5;
-        if (sum >= LabelColumn::kUnreached32) fits_ = false;
-        sum_[v] = std::uint32_t(sum);
-        highest_[v] = std::max(highest_[u], height);
-        step_[v] = std::uint8_t(step);
-        return v;
+    std::size_t reach(Arrival at, Arrival* next) {
+        const std::uint32_t v = at.node();
+        const unsigned step = at.step();
+        const std::uint32_t u = v - ahead_[step].offset;
+        const std::uint32_t height =
+            kPlanes ? graph_.height_plane[step / 2][step % 2 == 0 ? u : v] : at.weight_before() + node_[v].sum;
+        const std::uint64_t sum = node_[u].sum + std::uint64_t{height} * ahead_[step].length5;
+        if (sum >= kUnreached) fits_ = false;
+        return settle(v, std::uint32_t(sum), std::max(node_[u].highest & kHighest, height), step, next);
+    }
+
+    /// Labels a node. `next`: room for its children, and for three at least; how many they are.
+    std::size_t settle(std::uint32_t v, std::uint32_t sum, std::uint32_t highest, unsigned step, Arrival* next) {
+        NodeRecord& node = node_[v];
+        const std::uint32_t weight = node.sum;
+        unsigned children = node.highest >> kStepShift;
+        if (step != ParentColumn::kNoStep) children &= ~(1u << (step ^ 1u));
+        node = {sum, step << kStepShift | kReached | highest};
+        std::size_t count = 0;
+        const auto put = [&] {
+            const unsigned by = unsigned(std::countr_zero(children)) % 8;
+            next[count] = {v + ahead_[by].offset, by, weight};
+            count += children != 0;
+            children &= children - 1;
+        };
+        // Three without asking: how many there are no processor guesses.
+        put();
+        put();
+        put();
+        while (children != 0) put();
+        return count;
+    }
+
+    /// Makes labels of the records, and parents' steps.
+    UnsetVector<std::uint8_t> finish_labels() {
+        UnsetVector<std::uint8_t> step(node_.size());
+        share_out(node_.size(), work_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t n = first; n < end; ++n) {
+                const std::uint32_t highest = node_[n].highest;
+                const bool reached = (highest & kReached) != 0;
+                step[n] = reached ? std::uint8_t(highest >> kStepShift) : ParentColumn::kNoStep;
+                node_[n] = {reached ? node_[n].sum : kUnreached, highest & kHighest};
+            }
+        });
+        return step;
     }
 
     struct Ahead {
@@ -404,10 +474,8 @@ class ForestWalk {
     };
     const WeightedLattice& graph_;
     const Work& work_;
-    const UnsetVector<std::uint8_t> forest_;
     std::array<Ahead, 8> ahead_{};
-    UnsetVector<std::uint8_t> step_;
-    UnsetVector<std::uint32_t> sum_, highest_;
+    UnsetVector<NodeRecord> node_;
     std::atomic<bool> fits_{true};
 };
 
@@ -420,8 +488,8 @@ std::optional<Plan> plan_spanning_forest(const PlanRequest& request, const std::
     const bool both_ways = g.height_plane.empty() || g.symmetric;
     if (g.lattice.neighbourhood() == Neighbourhood::square16 || !both_ways || largest_height > kLargestHeight)
         return {};
-    UnsetVector<std::uint8_t> forest = ForestByTiles(g, sources, work).steps();
-    return ForestWalk(g, std::move(forest), work).run(sources);
+    UnsetVector<NodeRecord> nodes = ForestByTiles(g, sources, work).unreached_nodes();
+    return ForestWalk(g, std::move(nodes), work).run(sources);
 }
 
 }  // namespace dstylize

@@ -149,7 +149,7 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     if (!settle_labels(sums, sources, work, stats)) return {};
     stats.tiles = std::uint64_t(tiling.count());
     ParentColumn parent = parents(g, sum, bottleneck, bounds.cost(), sources, work);
-    OwnerColumn owner = owners_by_parents(sum, parent, sources, work);
+    OwnerColumn owner = owners_by_parents(parent, sources, work);
     return Plan{{std::move(sum), std::move(bottleneck)}, std::move(parent), std::move(owner)};
 }
 
