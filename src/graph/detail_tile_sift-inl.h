@@ -105,19 +105,27 @@ inline void mark_chosen(SiftedTile& t) {
     }
 }
 
-/// Of two nodes that chose each other the smaller becomes the root; then every node is led to its root.
+/// Of two nodes that chose each other the smaller becomes the root; then every node is led to its root, by turns
+/// upwards and downwards: either way what lies behind is at its root already.
 inline void find_roots(SiftedTile& t) {
-    constexpr std::uint16_t kFirst = kWindow, kEnd = kWindow * (kWindow - 1);
+    constexpr int kFirst = kWindow, kEnd = kWindow * (kWindow - 1);
     std::uint16_t* const root = t.root.data();
-    for (std::uint16_t n = kFirst; n < kEnd; ++n)
-        if (root[root[n]] == n && n < root[n]) root[n] = n;
-    for (unsigned moved = 1; moved != 0;) {
+    for (int n = kFirst; n < kEnd; ++n) {
+        const int other = root[n];
+        root[n] = std::uint16_t(root[other] == n ? std::min(n, other) : other);
+    }
+    unsigned moved = 1;
+    const auto lead_on = [&](int n) {
+        const std::uint16_t up = root[n], above = root[up];
+        moved |= unsigned(up ^ above);
+        root[n] = above;
+    };
+    while (moved != 0) {
         moved = 0;
-        for (std::uint16_t n = kFirst; n < kEnd; ++n) {
-            const std::uint16_t up = root[n], above = root[up];
-            moved |= unsigned(up ^ above);
-            root[n] = above;
-        }
+        for (int n = kFirst; n < kEnd; ++n) lead_on(n);
+        if (moved == 0) return;
+        moved = 0;
+        for (int n = kEnd - 1; n >= kFirst; --n) lead_on(n);
     }
 }
 

@@ -377,7 +377,7 @@ class ForestWalk {
 
   private:
     static constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
-    static constexpr std::size_t kWays = 16;
+    static constexpr std::size_t kWays = 32;
     static constexpr std::size_t kMostChildren = 7;
 
     template <bool kPlanes>
