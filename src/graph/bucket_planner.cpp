@@ -8,6 +8,7 @@
 #include <bit>
 #include <vector>
 
+#include "graph/detail_edge_range.h"
 #include "graph/detail_heights.h"
 #include "graph/detail_radix_queue.h"
 #include "graph/detail_sources.h"
@@ -116,39 +117,6 @@ class BucketSearch {
     std::vector<std::uint16_t> owner_;
     RadixQueue queue_;
 };
-
-struct EdgeRange {
-    std::uint64_t least_cost, largest_cost;
-    std::uint32_t largest_height;
-};
-
-/// Bounds on what an edge can cost. Where there is none, any will do.
-EdgeRange edge_range(const WeightedLattice& g) {
-    std::uint32_t least = 65535, largest = 1;
-    const auto look_at = [&](const std::vector<std::uint16_t>& values) {
-        // Less 1, so that 0, which is no edge, becomes the largest: without a branch the compiler takes several at
-        // once.
-        std::uint16_t least_less_1 = 65534, high = 0;
-        for (const std::uint16_t x : values) {
-            least_less_1 = std::min(least_less_1, std::uint16_t(x - 1));
-            high = std::max(high, x);
-        }
-        least = std::min(least, least_less_1 + 1u);
-        largest = std::max(largest, std::uint32_t(high));
-    };
-    std::uint32_t shortest5 = 5, longest5 = 11;
-    if (const Adjacency* a = g.lattice.adjacency(); a && !a->length5.empty()) {
-        shortest5 = *std::min_element(a->length5.begin(), a->length5.end());
-        longest5 = *std::max_element(a->length5.begin(), a->length5.end());
-    }
-    for (const auto& plane : g.height_plane) look_at(plane);
-    if (g.height_plane.empty()) {
-        look_at(g.weight);
-        least *= 2;
-        largest *= 2;
-    }
-    return {std::uint64_t(least) * shortest5, std::uint64_t(largest) * longest5, largest};
-}
 
 template <class Edges, class Keys>
 Plan search(const PlanRequest& request, const Work& work, Keys keys, const EdgeRange& range) {

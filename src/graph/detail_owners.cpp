@@ -35,11 +35,14 @@ OwnerColumn owners_by_parents(const ParentColumn& parent, const std::vector<Sour
     palette.insert(palette.begin(), Plan::kNoOwner);
     if (palette.size() == 2) {
         UnsetVector<std::uint8_t> entry(parent.size());
-        const std::span<const std::uint8_t> steps = parent.steps();
         share_out(parent.size(), work, [&](std::size_t first, std::size_t end) {
-            std::transform(steps.begin() + std::ptrdiff_t(first), steps.begin() + std::ptrdiff_t(end),
-                           entry.begin() + std::ptrdiff_t(first),
-                           [](std::uint8_t step) { return std::uint8_t(step != ParentColumn::kNoStep); });
+            const std::span<const std::uint8_t> steps = parent.steps();
+            if (steps.empty())
+                for (std::size_t n = first; n < end; ++n) entry[n] = parent[n] != kNoNode;
+            else  // many at a time
+                std::transform(steps.begin() + std::ptrdiff_t(first), steps.begin() + std::ptrdiff_t(end),
+                               entry.begin() + std::ptrdiff_t(first),
+                               [](std::uint8_t step) { return std::uint8_t(step != ParentColumn::kNoStep); });
         });
         for (const Source& s : sources) entry[index(s.node)] = 1;
         return {std::move(palette), std::move(entry)};

@@ -7,7 +7,7 @@
 
 namespace dstylize {
 
-/// Whose every node is: its parent's, and its own where a source has no parent. Of a column of steps. O(nodes).
+/// Whose every node is: its parent's, and its own where a source has no parent. O(nodes).
 OwnerColumn owners_by_parents(const ParentColumn& parent, const std::vector<Source>& sources, const Work& work);
 
 }  // namespace dstylize

@@ -26,6 +26,9 @@ class RadixQueue {
         levels_in_use_ |= 1u << level;
     }
 
+    /// Once it is empty, any priority may be pushed again.
+    void restart() { last_ = 0; }
+
     /// Takes all entries of the least priority into `taken`, in no order; false when none is left.
     /// Entries for which `is_stale` holds may be dropped on the way.
     template <class IsStale>

@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "graph/bucket_planner.h"
+#include "graph/detail_listed_search.h"
 #include "graph/detail_owners.h"
 #include "graph/detail_sources.h"
 #include "graph/detail_spanning_forest.h"
@@ -116,8 +117,10 @@ ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& 
 std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStats& stats) {
     const WeightedLattice& g = request.graph;
     const bool has_bottlenecks = request.metric == Metric::max_sum;
-    if (g.lattice.adjacency() || request.metric == Metric::blend) return {};
+    if (request.metric == Metric::blend) return {};
+    if (g.lattice.adjacency() && request.metric != Metric::sum) return {};
     const std::vector<Source> sources = distinct_sources(request);
+    if (g.lattice.adjacency()) return plan_listed(request, sources, work, stats);
     const EdgeBounds bounds = edge_bounds(g);
     if (request.metric == Metric::lexicographic) {
         stats.tiles = std::uint64_t(Tiling(g.lattice).count());

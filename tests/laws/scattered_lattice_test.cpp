@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "graph/bucket_planner.h"
 #include "graph/edge_count.h"
 #include "graph/height_planes.h"
+#include "graph/tile_planner.h"
 #include "laws/random_graphs.h"
+#include "support/sanitized.h"
 
 namespace dstylize {
 namespace {
@@ -65,9 +68,9 @@ TEST(ScatteredLattice, NoEdgePassesThroughAWall) {
 }
 
 /// Random weights, walls and sources on a scattered lattice, half of them with heights per direction.
-test::RandomGraph scattered_graph(std::uint32_t seed) {
+test::RandomGraph scattered_graph(std::uint32_t seed, int largest_side = 14) {
     test::Dice dice(seed);
-    const Extent e{dice.between(1, 14), dice.between(1, 14)};
+    const Extent e{dice.between(1, largest_side), dice.between(1, largest_side)};
     test::RandomGraph r;
     r.graph.lattice = lattice(open_ground(e), seed);
     const int levels = dice.one_in(2) ? 3 : 4000;
@@ -96,6 +99,52 @@ TEST(ScatteredLattice, ThePlannersAgreeBitForBit) {
             ASSERT_EQ(found.parent, expected.parent) << seed;
             ASSERT_EQ(found.owner, expected.owner) << seed;
         }
+    }
+}
+
+/// Whether the tiles did it is checked, too: a planner that always asks another one agrees with it.
+void expect_reference_answer_by_tiles(const test::RandomGraph& g, int threads, bool by_tiles, std::uint32_t seed) {
+    const PlanRequest request{g.graph, g.sources, Metric::sum};
+    Work work;
+    work.threads = threads;
+    TileStats stats;
+    const Plan expected = reference_planner().plan(request, {}), found = plan_by_tiles(request, work, stats);
+    ASSERT_EQ(stats.tiles > 0, by_tiles) << seed;
+    ASSERT_TRUE(found.label == expected.label) << seed;
+    ASSERT_TRUE(found.parent == expected.parent) << seed;
+    ASSERT_TRUE(found.owner == expected.owner) << seed;
+}
+
+TEST(ScatteredLattice, TilesAgreeWithTheReference) {
+    for (std::uint32_t seed = 2000; seed < 2000 + test::fewer_if_sanitized(1000); ++seed)
+        ASSERT_NO_FATAL_FAILURE(expect_reference_answer_by_tiles(scattered_graph(seed), 1, true, seed));
+    for (std::uint32_t seed = 4000; seed < 4000 + test::fewer_if_sanitized(40); ++seed)
+        ASSERT_NO_FATAL_FAILURE(
+            expect_reference_answer_by_tiles(scattered_graph(seed, 280), 1 + int(seed % 3), true, seed));
+}
+
+TEST(ScatteredLattice, TilesKeepEqualLabelsAndManyOwnersApart) {
+    test::RandomGraph g = scattered_graph(5000, 14);
+    g.graph.lattice = lattice(open_ground({200, 130}), 5);
+    g.graph.height_plane.clear();
+    g.graph.weight.assign(200 * 130, 1);
+    g.sources.clear();
+    for (std::uint32_t k = 0; k < 300; ++k) g.sources.push_back({NodeId{k * 83}, k % 3, std::uint16_t(65534 - k)});
+    for (const int threads : {1, 4}) ASSERT_NO_FATAL_FAILURE(expect_reference_answer_by_tiles(g, threads, true, 0));
+}
+
+TEST(ScatteredLattice, EdgesThatLeadFarAreLeftToAnotherPlanner) {
+    for (const std::uint32_t far : {15u, 17u, 90u, 199u}) {
+        auto adjacency = std::make_shared<Adjacency>(*lattice(open_ground({200, 3}), 6).adjacency());
+        // The last edge of node 0, which is on no other path.
+        const std::uint32_t edge = adjacency->first[1] - 1;
+        adjacency->to[edge] = far;
+        adjacency->length5[edge] = 1;
+        test::RandomGraph g;
+        g.graph.lattice = Lattice({200, 3}, adjacency);
+        g.graph.weight.assign(600, 7);
+        g.sources = {{NodeId{0}, 0, 0}};
+        ASSERT_NO_FATAL_FAILURE(expect_reference_answer_by_tiles(g, 1, far < 70, far));
     }
 }
 
