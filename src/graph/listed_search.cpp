@@ -17,6 +17,7 @@
 #include "graph/detail_listed_search.h"
 #include "graph/detail_owners.h"
 #include "graph/detail_radix_queue.h"
+#include "graph/detail_sources.h"
 #include "graph/detail_tile_queue.h"
 #include "graph/detail_workers.h"
 
@@ -45,7 +46,12 @@ class ListedSearch {
           work_(work),
           label_(lattice_.node_count(), kUnreached),
           parent_(lattice_.node_count(), kNoNode),
-          fallen_(std::size_t(tiling_.count())) {}
+          fallen_(std::size_t(tiling_.count())) {
+        const Plan* const earlier = reusable_plan(request, sources);
+        if (earlier == nullptr || earlier->label.sums().size() != label_.size()) return;
+        std::copy_n(earlier->label.sums().begin(), label_.size(), label_.begin());
+        for (std::size_t n = 0; n < parent_.size(); ++n) parent_[n] = earlier->parent[n];
+    }
 
     std::optional<Plan> run(TileStats& stats) && {
         const int workers = std::min(thread_count(work_), tiling_.count());
@@ -53,7 +59,10 @@ class ListedSearch {
         for (const Source& s : sources_) {
             if (s.start >= kUnreached) return {};
             const int tile = tiling_.tile_of(lattice_.column(s.node), lattice_.row(s.node));
-            const std::uint32_t start = std::uint32_t(s.start);
+            const std::uint32_t start = std::uint32_t(s.start), before = label_[index(s.node)];
+            if (start > before) continue;
+            parent_[index(s.node)] = kNoNode;
+            if (start == before) continue;
             label_[index(s.node)] = start;
             fallen_[std::size_t(tile)].push_back(index(s.node));
             Pending pending;

@@ -47,6 +47,9 @@ class LabelColumn {
         if (sum_[n] == kUnreached32) return {};
         return {highest_.empty() ? 0 : highest_[n], sum_[n]};
     }
+    /// The sums and the highest edges, where they are stored column by column.
+    std::span<const std::uint32_t> sums() const { return sum_; }
+    std::span<const std::uint32_t> highest() const { return highest_; }
     friend bool operator==(const LabelColumn& a, const LabelColumn& b);
 
   private:

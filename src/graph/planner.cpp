@@ -36,4 +36,15 @@ std::vector<Source> distinct_sources(const PlanRequest& request) {
     return sources;
 }
 
+const Plan* reusable_plan(const PlanRequest& request, const std::vector<Source>& sources) {
+    if (request.earlier == nullptr) return nullptr;
+    const auto still_holds = [&](const Source& earlier) {
+        const auto before = [](const Source& s, NodeId node) { return index(s.node) < index(node); };
+        const auto now = std::lower_bound(sources.begin(), sources.end(), earlier.node, before);
+        return now != sources.end() && now->node == earlier.node && now->start <= earlier.start;
+    };
+    const auto& earlier = request.earlier_sources;
+    return std::all_of(earlier.begin(), earlier.end(), still_holds) ? request.earlier : nullptr;
+}
+
 }  // namespace dstylize

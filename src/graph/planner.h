@@ -35,6 +35,11 @@ struct PlanRequest {
     std::span<const Source> sources;  ///< a node named twice keeps its smallest start, then smallest owner
     Metric metric = Metric::max_sum;
     std::uint32_t blend_factor = 5000;  ///< k of `blend`: k * highest edge + sum
+    /// A plan for the same graph and metric, or null, and the sources that it was made from. Saves time and never
+    /// changes the answer: when sources come to those that there were, `sum` and the bottlenecks of `max-sum` only
+    /// fall, and only what falls is searched again. Of no use where a source has gone or starts later now.
+    const Plan* earlier = nullptr;
+    std::span<const Source> earlier_sources{};
 };
 
 /// The seat of the planners. The reference planner is the oracle of every other one.

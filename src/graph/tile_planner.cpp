@@ -62,7 +62,7 @@ EdgeBounds edge_bounds(const WeightedLattice& g) {
     return bounds;
 }
 
-/// Brings the labels to rest, sources being those that are not unreached. False if they do not fit.
+/// Brings the labels to rest after those of some sources fell. False if they do not fit.
 bool settle_labels(const TileProblem& problem, const std::vector<Source>& sources, const Work& work, TileStats& stats) {
     const Lattice& lattice = problem.graph.lattice;
     const Tiling& tiling = problem.tiling;
@@ -101,6 +101,24 @@ bool settle_labels(const TileProblem& problem, const std::vector<Source>& source
     return fits;
 }
 
+/// What an earlier plan says of labels that mean this; empty if nothing.
+std::span<const std::uint32_t> labels_before(const Plan* earlier, TileRule rule) {
+    if (earlier == nullptr || rule == TileRule::sum_within_bottleneck) return {};
+    return rule == TileRule::sum ? earlier->label.sums() : earlier->label.highest();
+}
+
+/// Gives the sources their labels; those that fell by it.
+template <class LabelOf>
+std::vector<Source> fallen(const std::vector<Source>& sources, Labels& label, LabelOf label_of) {
+    std::vector<Source> out;
+    for (const Source& s : sources) {
+        if (label_of(s) >= label[index(s.node)]) continue;
+        label[index(s.node)] = label_of(s);
+        out.push_back(s);
+    }
+    return out;
+}
+
 ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck, std::uint32_t largest_step,
                      const std::vector<Source>& sources, const Work& work) {
     UnsetVector<std::uint8_t> step(sum.size());
@@ -129,27 +147,31 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     const bool wide = bounds.cost() > kLargestNarrowStep;
     if (has_bottlenecks && bounds.height > kLargestBottleneck) return {};
 
+    const Plan* const earlier = reusable_plan(request, sources);
     Labels sum, bottleneck;
     const Tiling tiling(g.lattice);
     const auto problem = [&](TileRule rule, bool wide_lanes, std::uint32_t largest_step, Labels& label) {
+        const std::span<const std::uint32_t> before = labels_before(earlier, rule);
         label.resize(g.lattice.node_count());
         share_out(label.size(), work, [&](std::size_t first, std::size_t end) {
-            std::fill(label.begin() + std::ptrdiff_t(first), label.begin() + std::ptrdiff_t(end), kUnreached);
+            const auto out = label.begin() + std::ptrdiff_t(first);
+            if (before.size() == label.size())
+                std::copy_n(before.begin() + std::ptrdiff_t(first), end - first, out);
+            else
+                std::fill_n(out, end - first, kUnreached);
         });
         return TileProblem{g, tiling, rule, wide_lanes, largest_step, label, bottleneck};
     };
     if (has_bottlenecks) {
         const TileProblem highest = problem(TileRule::bottleneck, false, 0, bottleneck);
-        for (const Source& s : sources) bottleneck[index(s.node)] = 0;
-        settle_labels(highest, sources, work, stats);
+        settle_labels(highest, fallen(sources, bottleneck, [](const Source&) { return 0u; }), work, stats);
     }
     const TileRule rule = has_bottlenecks ? TileRule::sum_within_bottleneck : TileRule::sum;
     const TileProblem sums = problem(rule, wide, bounds.cost(), sum);
-    for (const Source& s : sources) {
+    for (const Source& s : sources)
         if (s.start > sums.largest_base()) return {};
-        sum[index(s.node)] = std::uint32_t(s.start);
-    }
-    if (!settle_labels(sums, sources, work, stats)) return {};
+    const auto start = [](const Source& s) { return std::uint32_t(s.start); };
+    if (!settle_labels(sums, fallen(sources, sum, start), work, stats)) return {};
     stats.tiles = std::uint64_t(tiling.count());
     ParentColumn parent = parents(g, sum, bottleneck, bounds.cost(), sources, work);
     OwnerColumn owner = owners_by_parents(parent, sources, work);

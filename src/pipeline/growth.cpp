@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/branching.h"
 #include "core/noise.h"
@@ -226,6 +227,26 @@ void record_costs(Grid<float>& node_cost, const Dendrite& drawn, std::size_t fir
     }
 }
 
+/// What the round before planned, and on what.
+struct EarlierRound {
+    WeightedLattice graph;
+    Metric metric;
+    Plan plan;
+    std::vector<Source> sources;
+};
+
+/// The plan of a round. Labels of the round before are used again where paths are searched on the same weights.
+Plan planned(const WeightedLattice& graph, std::span<const Source> sources, const StageParameters& stage,
+             const std::optional<EarlierRound>& earlier, const Work& work) {
+    PlanRequest request{graph, sources, stage.metric, std::uint32_t(stage.blend_factor)};
+    if (earlier && earlier->metric == stage.metric && earlier->graph.weight == graph.weight &&
+        earlier->graph.height_plane == graph.height_plane && earlier->graph.symmetric == graph.symmetric) {
+        request.earlier = &earlier->plan;
+        request.earlier_sources = earlier->sources;
+    }
+    return tile_planner().plan(request, work);
+}
+
 /// Calls both beside one another: the first is often one thread's work. On a huge lattice one after the other.
 template <class Place, class FindPaths>
 void both(const Place& place, const FindPaths& find_paths, Extent lattice) {
@@ -245,6 +266,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
     Fields& fields = base.fields;
     Growth growth(base.lattice);
     Grown out;
+    std::optional<EarlierRound> earlier;
     const auto stages = double(style.stages.size());
     if (style.width.path > 0) out.node_cost = Grid<float>(fields.extent());
     for (std::size_t s = 0; s < style.stages.size(); ++s) {
@@ -266,7 +288,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 transform(share, [](float v) { return std::clamp(2 * v, 0.0f, 1.0f); });
                 fields.replace("lacking", std::move(share));
             }
-            const WeightedLattice graph = weights(fields, base, round, directional, work);
+            WeightedLattice graph = weights(fields, base, round, directional, work);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))
@@ -281,10 +303,8 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 endpoints = given ? given_endpoints(controls, stage, s == 0, graph, picture_px)
                                   : placed_endpoints(fields, stage.endpoints, view, controls.seed, work);
             };
-            const std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
-            const auto find_paths = [&] {
-                plan = tile_planner().plan({graph, sources, stage.metric, std::uint32_t(stage.blend_factor)}, work);
-            };
+            std::vector<Source> sources = stage_sources(growth, graph, stage, fields.u());
+            const auto find_paths = [&] { plan = planned(graph, sources, stage, earlier, work); };
             both(place, find_paths, fields.extent());
             if (stage.endpoints.close_loops > 0 && !given) {
                 const std::vector<NodeId> closings = loop_closings(fields, graph, plan, stage.endpoints);
@@ -296,6 +316,8 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
             out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),
                                           given ? Growth::Accept{} : path_filter(fields, base.lattice, round, lacking));
             if (!out.node_cost.empty()) record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
+            if (fields.extent().count() <= kLarge)
+                earlier = EarlierRound{std::move(graph), stage.metric, std::move(plan), std::move(sources)};
         }
     }
     out.dendrite = without_spurs(growth.dendrite(), spur_length(fields, style.stroke));

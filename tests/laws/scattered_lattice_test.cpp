@@ -133,6 +133,27 @@ TEST(ScatteredLattice, TilesKeepEqualLabelsAndManyOwnersApart) {
     for (const int threads : {1, 4}) ASSERT_NO_FATAL_FAILURE(expect_reference_answer_by_tiles(g, threads, true, 0));
 }
 
+TEST(ScatteredLattice, TilesUseLabelsAgainWhenSourcesHaveCome) {
+    for (std::uint32_t seed = 6000; seed < 6000 + test::fewer_if_sanitized(400); ++seed) {
+        const test::RandomGraph g = scattered_graph(seed, seed % 20 == 0 ? 150 : 14);
+        const Plan before = tile_planner().plan({g.graph, g.sources, Metric::sum}, {});
+        std::vector<Source> more(g.sources);
+        test::Dice dice(seed);
+        const std::uint32_t nodes = std::uint32_t(g.graph.lattice.node_count());
+        for (int k = 0; k < 4; ++k)
+            if (const NodeId n{dice.below(nodes)}; g.graph.passable(n)) {
+                // Half of them start with the label that they have.
+                const std::uint64_t label = before.label[index(n)].sum;
+                more.push_back({n, dice.one_in(2) && label < 100000 ? label : dice.below(300), 9});
+            }
+        const PlanRequest request{g.graph, more, Metric::sum, 5000, &before, g.sources};
+        const Plan expected = reference_planner().plan(request, {}), found = tile_planner().plan(request, {});
+        ASSERT_TRUE(found.label == expected.label) << seed;
+        ASSERT_TRUE(found.parent == expected.parent) << seed;
+        ASSERT_TRUE(found.owner == expected.owner) << seed;
+    }
+}
+
 TEST(ScatteredLattice, EdgesThatLeadFarAreLeftToAnotherPlanner) {
     for (const std::uint32_t far : {15u, 17u, 90u, 199u}) {
         auto adjacency = std::make_shared<Adjacency>(*lattice(open_ground({200, 3}), 6).adjacency());

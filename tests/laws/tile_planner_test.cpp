@@ -167,6 +167,48 @@ TEST(TilePlanner, AnswersTheSameForAnyNumberOfThreads) {
     }
 }
 
+/// A plan after sources have come to those of `g`, in some of its tiles, with the labels of before.
+void expect_reference_answer_again(const RandomGraph& g, std::uint32_t seed, Metric metric) {
+    Dice dice(seed);
+    Work work;
+    work.threads = 1 + int(dice.below(2));
+    const Plan before = tile_planner().plan({g.graph, g.sources, metric}, work);
+    RandomGraph more = g;
+    for (Source& s : more.sources)
+        if (dice.one_in(2)) s.start -= dice.below(std::uint32_t(std::min<std::uint64_t>(s.start, 100)) + 1);
+    const std::uint32_t nodes = std::uint32_t(g.graph.lattice.node_count());
+    for (std::uint32_t k = dice.below(5); k > 0; --k)
+        if (const NodeId n{dice.below(nodes)}; g.graph.passable(n)) more.sources.push_back({n, dice.below(300), 9});
+    if (dice.one_in(8)) more.sources.erase(more.sources.begin());  // of no use then
+    if (more.sources.empty()) return;
+    const PlanRequest request{more.graph, more.sources, metric, 5000, &before, g.sources};
+    const Plan expected = reference_planner().plan(request, {}), found = tile_planner().plan(request, work);
+    const std::string what = g.shape + ", " + std::string(metric_names()[std::size_t(metric)]);
+    ASSERT_TRUE(found.label == expected.label) << what;
+    ASSERT_TRUE(found.parent == expected.parent) << what;
+    ASSERT_TRUE(found.owner == expected.owner) << what;
+}
+
+TEST(TilePlanner, UsesLabelsAgainWhenSourcesHaveCome) {
+    for (std::uint32_t seed = 70000; seed < 70000 + test::fewer_if_sanitized(2000); ++seed)
+        for (const Metric metric : {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend})
+            ASSERT_NO_FATAL_FAILURE(
+                expect_reference_answer_again(random_graph(seed, seed % 20 == 0 ? 200 : 20), seed, metric));
+}
+
+TEST(TilePlanner, SearchesOnlyWhatFallsWhenASourceHasCome) {
+    const RandomGraph g = weighted({620, 620}, Neighbourhood::square8, std::vector<NodeWeight>(620 * 620, 9));
+    TileStats stats;
+    const Plan before = plan_by_tiles({g.graph, g.sources, Metric::sum}, {}, stats);
+    const std::vector<Source> more{g.sources[0], {NodeId{619 * 620 + 619}, before.label[619 * 620 + 519].sum, 1}};
+    const PlanRequest request{g.graph, more, Metric::sum, 5000, &before, g.sources};
+    TileStats again;
+    const Plan found = plan_by_tiles(request, {}, again);
+    EXPECT_TRUE(found.label == reference_planner().plan(request, {}).label);
+    EXPECT_GT(again.visits, 0u);
+    EXPECT_LT(10 * again.visits, stats.visits);
+}
+
 /// Work is counted, as time is not tested: visits and rows for 8 neighbours and noise, the costliest map.
 TEST(TilePlanner, VisitsATileAFewTimes) {
     Dice dice(1);
