@@ -101,7 +101,7 @@ Times measured(const Row& row, double mega) {
     const std::size_t nodes = g.weight.size();
     const NodeId source = map_source(g.lattice);
     Times t;
-    const bool by_tiles = row.edges != Edges::irregular && (row.metric == Metric::sum || row.metric == Metric::max_sum);
+    const bool by_tiles = row.metric != Metric::blend;
     const int times = by_tiles ? 3 : 1;  // the rest goes to the buckets, and takes long
     const Plan plan = planned(tile_planner(), g, row.metric, 1, times, t.tiles);
     const auto check = [&](const LabelColumn& label, const char* peer) {

@@ -24,8 +24,6 @@
 namespace dstylize {
 namespace {
 
-constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
-
 /// Where a node lies, seen from a tile.
 struct Place {
     std::size_t beside;  // of the nine tiles around and including it, row by row; 4 is the tile itself
@@ -89,6 +87,7 @@ class ListedSearch {
     }
 
   private:
+    static constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
     /// As for passes over vectors: so much more urgent another worker's tile has to be.
     static constexpr std::uint32_t kLead = 65536;
 

@@ -22,6 +22,8 @@
 // node's M never depends on sums, and this is what best-first search with that order finds.
 //
 // Parents follow from labels at rest, row by row; owners from parents.
+//
+// Two more methods go by tiles: spanning_forest.cpp for `lexicographic`, listed_search.cpp for irregular lattices.
 #include "graph/tile_planner.h"
 
 #include <algorithm>
