@@ -55,8 +55,9 @@ void report_crash(const ipc::Descriptor& channel, int status) {
 
 void supervise(const ipc::Descriptor& channel,
                const std::function<WorkerEnd(std::atomic<bool>& busy, sandbox::Confinement held)>& work) {
+    constexpr int kMostIdleDeaths = 3;
     std::atomic<bool>& busy = shared_flag();
-    while (true) {
+    for (int idle_deaths = 0; idle_deaths < kMostIdleDeaths;) {
         busy = false;
         const pid_t child = fork();
         if (child < 0) return;
@@ -70,7 +71,8 @@ void supervise(const ipc::Descriptor& channel,
         const int status = waited_for(child);
         const bool ended = WIFEXITED(status);
         if (ended && WEXITSTATUS(status) == int(WorkerEnd::channel_closed)) return;
-        if (ended && WEXITSTATUS(status) == int(WorkerEnd::retired)) continue;
+        const bool idle = !busy && !(ended && WEXITSTATUS(status) == int(WorkerEnd::retired));
+        idle_deaths = idle ? idle_deaths + 1 : 0;
         if (busy) report_crash(channel, status);
     }
 }
