@@ -154,13 +154,13 @@ constexpr bool precedes(NearbyEdge e, std::size_t k) {
 template <std::size_t kPlace, int kCorner>
 HWY_INLINE void drop_greatest(const SiftedTile& t, int at, Vec<std::uint16_t> height,
                               hn::Mask<Tag<std::uint16_t>>& dropped) {
-    constexpr Offset a{kCorner % 5 - 2, kCorner / 5 - 2};
-    if constexpr (are_neighbours(a, {0, 0}) && are_neighbours(a, kForward[kPlace])) {
+    constexpr Offset kAt{kCorner % 5 - 2, kCorner / 5 - 2};
+    if constexpr (are_neighbours(kAt, {0, 0}) && are_neighbours(kAt, kForward[kPlace])) {
         const Tag<std::uint16_t> d;
         const auto before = [&]<std::size_t kFrom>(std::integral_constant<std::size_t, kFrom>) {
-            constexpr NearbyEdge e = edge_between(a, kFrom == 0 ? Offset{0, 0} : kForward[kPlace]);
-            const auto other = hn::LoadU(d, t.height[e.forward].data() + at + in_window(e.from));
-            if constexpr (precedes(e, kPlace))
+            constexpr NearbyEdge kEdge = edge_between(kAt, kFrom == 0 ? Offset{0, 0} : kForward[kPlace]);
+            const auto other = hn::LoadU(d, t.height[kEdge.forward].data() + at + in_window(kEdge.from));
+            if constexpr (precedes(kEdge, kPlace))
                 return hn::Eq(hn::Min(other, height), other);
             else
                 return hn::Lt(other, height);
