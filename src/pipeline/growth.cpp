@@ -235,6 +235,16 @@ struct EarlierRound {
     std::vector<Source> sources;
 };
 
+/// Whether the round after this one may have the same weights: neither noise of its own nor a look at what is drawn.
+bool may_be_planned_again(const Style& style, std::size_t stage, bool has_another_batch) {
+    const StageParameters& now = style.stages[stage];
+    if (now.noise_white > 0 || now.noise_smooth > 0 || looks_at_lack(now)) return false;
+    if (has_another_batch) return true;
+    if (stage + 1 == style.stages.size()) return false;
+    const StageParameters& next = style.stages[stage + 1];
+    return now.cost == next.cost && now.cost_constant == next.cost_constant && now.levels == next.levels;
+}
+
 /// The plan of a round. Labels of the round before are used again where paths are searched on the same weights.
 Plan planned(const WeightedLattice& graph, std::span<const Source> sources, const StageParameters& stage,
              const std::optional<EarlierRound>& earlier, const Work& work) {
@@ -316,7 +326,8 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
             out.unreached += growth.graft(plan, endpoints, std::uint8_t(s),
                                           given ? Growth::Accept{} : path_filter(fields, base.lattice, round, lacking));
             if (!out.node_cost.empty()) record_costs(out.node_cost, growth.dendrite(), before, graph, stage);
-            if (fields.extent().count() <= kLarge)
+            earlier.reset();
+            if (fields.extent().count() <= kLarge && may_be_planned_again(style, s, batch + 1 < batches))
                 earlier = EarlierRound{std::move(graph), stage.metric, std::move(plan), std::move(sources)};
         }
     }
