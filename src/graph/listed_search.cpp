@@ -132,7 +132,8 @@ class ListedSearch {
         const std::uint64_t label = label_[u];
         edges_(u, [&](std::uint32_t v, std::uint32_t height, int edge) {
             const std::uint64_t reached = label + std::uint64_t{height} * edges_.length5(edge);
-            if (reached > label_[v]) return;
+            if (reached >= kUnreached && label_[v] == kUnreached) fits_ = false;
+            if (reached >= kUnreached || reached > label_[v]) return;
             if (reached == label_[v]) {
                 if (parent_[v] != kNoNode && precedes(u, index(parent_[v]))) parent_[v] = NodeId{u};
                 return;

@@ -154,6 +154,17 @@ TEST(ScatteredLattice, TilesUseLabelsAgainWhenSourcesHaveCome) {
     }
 }
 
+TEST(ScatteredLattice, SumsThatDoNotFit32BitsAreLeftToAnotherPlanner) {
+    test::RandomGraph g = scattered_graph(7000);
+    g.graph.lattice = lattice(open_ground({70, 5}), 7);
+    g.graph.height_plane.clear();
+    g.graph.weight.assign(350, 255);
+    for (const std::uint64_t start : {0xffff0000ull - 300000, 0xffff0000ull, 0xfffffffeull, 0x100000000ull}) {
+        g.sources = {{NodeId{0}, start, 1}};
+        ASSERT_NO_FATAL_FAILURE(expect_reference_answer_by_tiles(g, 1, start < 0xffff0000ull, 0));
+    }
+}
+
 TEST(ScatteredLattice, EdgesThatLeadFarAreLeftToAnotherPlanner) {
     for (const std::uint32_t far : {15u, 17u, 90u, 199u}) {
         auto adjacency = std::make_shared<Adjacency>(*lattice(open_ground({200, 3}), 6).adjacency());
