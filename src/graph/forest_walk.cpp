@@ -20,10 +20,10 @@ namespace {
 
 /// A node that is to be reached by a step from one with this weight. One word: what is read back at once has to be
 /// read as it was written.
-class Arrival {
+class FrontierNode {
   public:
-    Arrival() = default;
-    Arrival(std::uint32_t node, unsigned step, std::uint32_t weight_before)
+    FrontierNode() = default;
+    FrontierNode(std::uint32_t node, unsigned step, std::uint32_t weight_before)
         : word_(std::uint64_t{step} << 48 | std::uint64_t{weight_before} << 32 | node) {}
     std::uint32_t node() const { return std::uint32_t(word_); }
     unsigned step() const { return unsigned(word_ >> 48); }
@@ -37,10 +37,10 @@ class Arrival {
 class WalkPool {
   public:
     /// Before any worker joins.
-    void add(std::span<const Arrival> nodes) { nodes_.insert(nodes_.end(), nodes.begin(), nodes.end()); }
+    void add(std::span<const FrontierNode> nodes) { nodes_.insert(nodes_.end(), nodes.begin(), nodes.end()); }
 
     /// Some of the nodes, or false when no worker has any left.
-    bool take(UnsetVector<Arrival>& stack) {
+    bool take(UnsetVector<FrontierNode>& stack) {
         std::unique_lock lock(mutex_);
         --busy_;
         ++hungry_;
@@ -58,7 +58,7 @@ class WalkPool {
     }
     bool is_hungry() const { return hungry_.load(std::memory_order_relaxed) > 0; }
     /// Gives the oldest half of a stack away: large parts lie behind these.
-    void give(UnsetVector<Arrival>& stack) {
+    void give(UnsetVector<FrontierNode>& stack) {
         const std::lock_guard lock(mutex_);
         const std::ptrdiff_t count = std::ptrdiff_t(stack.size() / 2);
         nodes_.insert(nodes_.end(), stack.begin(), stack.begin() + count);
@@ -73,7 +73,7 @@ class WalkPool {
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
-    UnsetVector<Arrival> nodes_;
+    UnsetVector<FrontierNode> nodes_;
     int busy_ = 0;
     std::atomic<int> hungry_{0};
 };
@@ -91,7 +91,7 @@ class ForestWalk {
         WalkPool pool;
         for (const Source& s : sources) {
             if (s.start >= kUnreached) return {};
-            std::array<Arrival, 8> next;
+            std::array<FrontierNode, 8> next;
             const std::size_t count =
                 settle(index(s.node), std::uint32_t(s.start), 0, ParentColumn::kNoStep, next.data());
             pool.add({next.data(), count});
@@ -113,8 +113,8 @@ class ForestWalk {
     template <bool kPlanes>
     void walk(WalkPool& pool) {
         constexpr std::size_t kWorthGiving = 8;
-        UnsetVector<Arrival> waiting;
-        std::array<Arrival, kWays> way;
+        UnsetVector<FrontierNode> waiting;
+        std::array<FrontierNode, kWays> way;
         std::size_t ways = 0;
         pool.join();
         for (;;) {
@@ -132,7 +132,7 @@ class ForestWalk {
 
     /// Every way some nodes on; what waits is the next on a way that ends. Returns how many ways are left.
     template <bool kPlanes>
-    std::size_t follow(std::span<Arrival> way, UnsetVector<Arrival>& waiting) {
+    std::size_t follow(std::span<FrontierNode> way, UnsetVector<FrontierNode>& waiting) {
         constexpr std::size_t kTurns = 64;
         std::size_t ways = way.size(), top = waiting.size();
         waiting.resize(top + kTurns * kWays * kMostChildren);
@@ -152,7 +152,7 @@ class ForestWalk {
     }
 
     template <bool kPlanes>
-    std::size_t reach(Arrival at, Arrival* next) {
+    std::size_t reach(FrontierNode at, FrontierNode* next) {
         const std::uint32_t v = at.node();
         const unsigned step = at.step();
         const std::uint32_t u = v - ahead_[step].offset;
@@ -164,7 +164,7 @@ class ForestWalk {
     }
 
     /// Labels a node. `next`: room for its children, and for three at least; how many they are.
-    std::size_t settle(std::uint32_t v, std::uint32_t sum, std::uint32_t highest, unsigned step, Arrival* next) {
+    std::size_t settle(std::uint32_t v, std::uint32_t sum, std::uint32_t highest, unsigned step, FrontierNode* next) {
         NodeRecord& node = node_[v];
         const std::uint32_t weight = node.sum;
         unsigned children = node.highest >> kStepShift;

@@ -26,10 +26,10 @@ namespace dstylize {
 namespace {
 
 /// An edge of the whole lattice and the trees that it joins.
-struct Joint {
+struct CandidateEdge {
     std::uint64_t key;  // height, smaller node, place in kForward
     std::uint32_t a, b;
-    friend bool operator<(const Joint& x, const Joint& y) { return x.key < y.key; }
+    friend bool operator<(const CandidateEdge& x, const CandidateEdge& y) { return x.key < y.key; }
 };
 
 class ForestByTiles {
@@ -50,10 +50,10 @@ class ForestByTiles {
 
     UnsetVector<NodeRecord> unreached_nodes() && {
         grow_tiles();
-        std::vector<Joint> joints = all_joints();
+        std::vector<CandidateEdge> candidates = all_candidates();
         work_.check();
-        std::sort(joints.begin(), joints.end());
-        join(joints);
+        std::sort(candidates.begin(), candidates.end());
+        join(candidates);
         return std::move(node_);
     }
 
@@ -70,25 +70,25 @@ class ForestByTiles {
     }
 
     /// The open edges of all tiles, between trees that are counted over all tiles.
-    std::vector<Joint> all_joints() {
+    std::vector<CandidateEdge> all_candidates() {
         std::vector<std::size_t> first_edge(forest_.size() + 1);
         first_tree_.resize(forest_.size() + 1);
         for (std::size_t t = 0; t < forest_.size(); ++t) {
             first_edge[t + 1] = first_edge[t] + forest_[t].open.size();
             first_tree_[t + 1] = first_tree_[t] + forest_[t].tree_count;
         }
-        std::vector<Joint> joints(first_edge.back());
+        std::vector<CandidateEdge> candidates(first_edge.back());
         share_out(forest_.size(), work_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) {
-                Joint* out = joints.data() + first_edge[t];
-                for (const OpenEdge& open : forest_[t].open) *out++ = joint_of(int(t), open);
+                CandidateEdge* out = candidates.data() + first_edge[t];
+                for (const OpenEdge& open : forest_[t].open) *out++ = candidate_of(int(t), open);
                 forest_[t].open = {};
             }
         });
-        return joints;
+        return candidates;
     }
 
-    Joint joint_of(int tile, const OpenEdge& open) const {
+    CandidateEdge candidate_of(int tile, const OpenEdge& open) const {
         const auto at = [&](int node) {
             const Offset o = tiling_.origin(tile);
             return Offset{o.dx + node % kWindow, o.dy + node / kWindow};
@@ -108,7 +108,7 @@ class ForestByTiles {
                 first + open.tree, other};
     }
 
-    void join(const std::vector<Joint>& joints) {
+    void join(const std::vector<CandidateEdge>& candidates) {
         std::vector<std::uint32_t> joined(first_tree_.back());
         std::iota(joined.begin(), joined.end(), 0u);
         std::optional<std::uint32_t> first_source;
@@ -119,13 +119,13 @@ class ForestByTiles {
             joined[tree] = *first_source;
         }
         const std::uint32_t width = std::uint32_t(graph_.lattice.extent().x);
-        for (const Joint& j : joints) {
-            const std::uint32_t a = root_of(joined.data(), j.a);
-            const std::uint32_t b = root_of(joined.data(), j.b);
+        for (const CandidateEdge& e : candidates) {
+            const std::uint32_t a = root_of(joined.data(), e.a);
+            const std::uint32_t b = root_of(joined.data(), e.b);
             if (a == b) continue;
             joined[b] = a;
-            const std::uint32_t u = std::uint32_t(j.key >> 2);
-            const std::size_t forward = j.key & 3;
+            const std::uint32_t u = std::uint32_t(e.key >> 2);
+            const std::size_t forward = e.key & 3;
             const Offset ahead = kForward[forward];
             add_step(node_[u], kForwardStep[forward]);
             add_step(node_[u + std::uint32_t(ahead.dy) * width + std::uint32_t(ahead.dx)], kForwardStep[forward] ^ 1u);

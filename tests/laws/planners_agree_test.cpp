@@ -19,9 +19,7 @@ void expect_reference_answer(const Planner& planner, const RandomGraph& g, std::
         const PlanRequest request{g.graph, g.sources, metric, blend_factor};
         const Plan expected = reference_planner().plan(request, {}), found = planner.plan(request, {});
         const std::string what = g.shape + ", " + std::string(metric_names()[std::size_t(metric)]);
-        ASSERT_TRUE(found.label == expected.label) << what;
-        ASSERT_TRUE(found.parent == expected.parent) << what;
-        ASSERT_TRUE(found.owner == expected.owner) << what;
+        ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(found, expected, what));
     }
 }
 

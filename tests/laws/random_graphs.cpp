@@ -1,5 +1,7 @@
 #include "laws/random_graphs.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 
 #include "graph/height_planes.h"
@@ -117,6 +119,12 @@ RandomGraph random_graph(std::uint32_t seed, int largest_side) {
               " steps, " + std::to_string(r.graph.height_plane.size()) + " planes, " +
               std::to_string(r.sources.size()) + " sources";
     return r;
+}
+
+void expect_same_plan(const Plan& found, const Plan& expected, const std::string& what) {
+    ASSERT_TRUE(found.label == expected.label) << what;
+    ASSERT_TRUE(found.parent == expected.parent) << what;
+    ASSERT_TRUE(found.owner == expected.owner) << what;
 }
 
 std::vector<bool> reachable(const RandomGraph& g) {

@@ -33,6 +33,9 @@ struct RandomGraph {
 /// sources with start labels and owners, some of them twice.
 RandomGraph random_graph(std::uint32_t seed, int largest_side);
 
+/// All three columns; gtest's way to say no, with the message.
+void expect_same_plan(const Plan& found, const Plan& expected, const std::string& what);
+
 /// The nodes to which some path leads from a source.
 std::vector<bool> reachable(const RandomGraph& g);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 
 #include "graph/bucket_planner.h"
 #include "graph/edge_count.h"
@@ -110,9 +111,7 @@ void expect_reference_answer_by_tiles(const test::RandomGraph& g, int threads, b
     TileStats stats;
     const Plan expected = reference_planner().plan(request, {}), found = plan_by_tiles(request, work, stats);
     ASSERT_EQ(stats.tiles > 0, by_tiles) << seed;
-    ASSERT_TRUE(found.label == expected.label) << seed;
-    ASSERT_TRUE(found.parent == expected.parent) << seed;
-    ASSERT_TRUE(found.owner == expected.owner) << seed;
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(found, expected, std::to_string(seed)));
 }
 
 TEST(ScatteredLattice, TilesAgreeWithTheReference) {
@@ -148,9 +147,7 @@ TEST(ScatteredLattice, TilesUseLabelsAgainWhenSourcesHaveCome) {
             }
         const PlanRequest request{g.graph, more, Metric::sum, 5000, &before, g.sources};
         const Plan expected = reference_planner().plan(request, {}), found = tile_planner().plan(request, {});
-        ASSERT_TRUE(found.label == expected.label) << seed;
-        ASSERT_TRUE(found.parent == expected.parent) << seed;
-        ASSERT_TRUE(found.owner == expected.owner) << seed;
+        ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(found, expected, std::to_string(seed)));
     }
 }
 

@@ -39,9 +39,7 @@ void expect_reference_answer(const RandomGraph& g, Metric metric, int threads = 
     const Plan expected = reference_planner().plan(request, {}), found = plan_by_tiles(request, work, stats);
     const std::string what = g.shape + ", " + std::string(metric_names()[std::size_t(metric)]);
     ASSERT_EQ(stats.tiles > 0, by_tiles) << what;
-    ASSERT_TRUE(found.label == expected.label) << what;
-    ASSERT_TRUE(found.parent == expected.parent) << what;
-    ASSERT_TRUE(found.owner == expected.owner) << what;
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(found, expected, what));
 }
 
 std::uint32_t largest_height(const WeightedLattice& g) {
@@ -184,9 +182,7 @@ void expect_reference_answer_again(const RandomGraph& g, std::uint32_t seed, Met
     const PlanRequest request{more.graph, more.sources, metric, 5000, &before, g.sources};
     const Plan expected = reference_planner().plan(request, {}), found = tile_planner().plan(request, work);
     const std::string what = g.shape + ", " + std::string(metric_names()[std::size_t(metric)]);
-    ASSERT_TRUE(found.label == expected.label) << what;
-    ASSERT_TRUE(found.parent == expected.parent) << what;
-    ASSERT_TRUE(found.owner == expected.owner) << what;
+    ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(found, expected, what));
 }
 
 TEST(TilePlanner, UsesLabelsAgainWhenSourcesHaveCome) {
