@@ -45,11 +45,11 @@ struct QuantisedFlow {
 };
 
 /// The steps of one stored plane.
-struct Plane {
+struct HeightPlane {
     Step step;
     std::uint16_t factor;     // of the step, kPoint
     std::int16_t cos2, sin2;  // of twice the step's angle, kAnglePoint
-    Plane(Step s, float step_factor) : step(s) {
+    HeightPlane(Step s, float step_factor) : step(s) {
         const int squared = s.dx * s.dx + s.dy * s.dy, one = 1 << kAnglePoint;
         cos2 = std::int16_t((s.dx * s.dx - s.dy * s.dy) * one / squared);
         sin2 = std::int16_t(2 * s.dx * s.dy * one / squared);
@@ -84,7 +84,7 @@ void fill_base(const NodeWeight* u, const NodeWeight* v, const NodeWeight* a, co
 
 /// Products of 16-bit numbers throughout: those every vector unit multiplies well. Sums of two quantised
 /// components stay within 16 bits.
-void fill_factor(const QuantisedFlow& flow, const Plane& p, std::ptrdiff_t u, std::ptrdiff_t v, int count,
+void fill_factor(const QuantisedFlow& flow, const HeightPlane& p, std::ptrdiff_t u, std::ptrdiff_t v, int count,
                  Piece& factor) {
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const auto coherence = std::int16_t(flow.coherence[u + i] + flow.coherence[v + i]);
@@ -109,7 +109,8 @@ void fill_heights(const Piece& base, const Piece& factor, int count, std::uint16
     }
 }
 
-void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const Plane& p, int row, std::uint16_t* plane) {
+void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const HeightPlane& p, int row,
+              std::uint16_t* plane) {
     const Extent e = g.lattice.extent();
     const int dx = p.step.dx, dy = p.step.dy;
     if (row + dy < 0 || row + dy >= e.y) return;
@@ -210,7 +211,7 @@ void build_height_planes(WeightedLattice& g, const DirectionalCost& cost, const 
     assert(g.weight.size() == g.lattice.node_count());
     work.check();
     g.symmetric = opposite_steps_are_equal(cost.step_factor);
-    std::vector<Plane> planes;
+    std::vector<HeightPlane> planes;
     for (std::size_t s = 0; s < steps.size(); s += g.symmetric ? 2 : 1)
         planes.emplace_back(steps[s], cost.step_factor.empty() ? 1.f : cost.step_factor[s]);
     g.height_plane.resize(planes.size());

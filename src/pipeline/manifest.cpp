@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kHead = "# dstylize manifest 1, pictures: ";
+constexpr std::string_view kHeadLine = "# dstylize manifest 1, pictures: ";
 
 std::string escaped(const std::string& path) {
     std::string out;
@@ -35,8 +35,8 @@ class Reader {
             lines.push_back(line());
             out.push_back(path(lines.back()));
         }
-        if (head != fmt::format("{}{}", kHead, out.size())) {
-            if (!head.starts_with(kHead)) refuse("is no manifest");
+        if (head != fmt::format("{}{}", kHeadLine, out.size())) {
+            if (!head.starts_with(kHeadLine)) refuse("is no manifest");
             refuse(fmt::format("is not whole: it lists {} pictures", out.size()));
         }
         std::sort(lines.begin(), lines.end());
@@ -83,7 +83,7 @@ class Reader {
 }  // namespace
 
 std::string manifest_text(const std::vector<std::string>& pictures) {
-    std::string out = fmt::format("{}{}\n", kHead, pictures.size());
+    std::string out = fmt::format("{}{}\n", kHeadLine, pictures.size());
     for (const std::string& picture : pictures) out += escaped(picture) + "\n";
     return out;
 }

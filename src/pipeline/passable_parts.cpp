@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t kRowsAtOnce = 64;
 
 /// Passable nodes side by side in a row.
-struct Run {
+struct RowRun {
     int row, first, last;
 };
 
-std::vector<Run> runs_of(const WeightedLattice& graph) {
+std::vector<RowRun> runs_of(const WeightedLattice& graph) {
     const Extent e = graph.lattice.extent();
-    std::vector<Run> runs;
+    std::vector<RowRun> runs;
     for (int j = 0; j < e.y; ++j) {
         const NodeWeight* const weight = graph.weight.data() + std::size_t(j) * std::size_t(e.x);
         for (int i = 0; i < e.x; ++i) {
@@ -49,10 +49,10 @@ class RunSets {
 };
 
 /// Joins each run to those of the row above that it touches; `slant` 1 where steps go diagonally.
-void join_rows(const std::vector<Run>& runs, int slant, RunSets& sets) {
+void join_rows(const std::vector<RowRun>& runs, int slant, RunSets& sets) {
     std::uint32_t above = 0;
     for (std::uint32_t r = 0; r < runs.size(); ++r) {
-        const Run& run = runs[r];
+        const RowRun& run = runs[r];
         while (runs[above].row < run.row - 1 ||
                (runs[above].row == run.row - 1 && runs[above].last < run.first - slant))
             ++above;
@@ -63,13 +63,13 @@ void join_rows(const std::vector<Run>& runs, int slant, RunSets& sets) {
 
 PassableParts parts_by_runs(const WeightedLattice& graph) {
     PassableParts out{Grid<std::uint32_t>::unset(graph.lattice.extent()), {}, {}};
-    const std::vector<Run> runs = runs_of(graph);
+    const std::vector<RowRun> runs = runs_of(graph);
     RunSets sets(runs.size());
     // A knight's move never joins what the other steps do not.
     join_rows(runs, graph.lattice.steps().size() > 4 ? 1 : 0, sets);
     std::vector<std::uint32_t> part(runs.size());
     for (std::uint32_t r = 0; r < runs.size(); ++r) {
-        const Run& run = runs[r];
+        const RowRun& run = runs[r];
         const std::uint32_t root = sets.root(r);
         if (root == r) {
             part[r] = std::uint32_t(out.size.size());
@@ -83,7 +83,7 @@ PassableParts parts_by_runs(const WeightedLattice& graph) {
     const auto fill_row = [&](std::size_t j) {
         std::uint32_t* const row = out.part.row(int(j));
         std::fill_n(row, graph.lattice.extent().x, PassableParts::kNone);
-        const auto before = [](const Run& run, int of_row) { return run.row < of_row; };
+        const auto before = [](const RowRun& run, int of_row) { return run.row < of_row; };
         for (auto run = std::lower_bound(runs.begin(), runs.end(), int(j), before);
              run != runs.end() && run->row == int(j); ++run)
             std::fill(row + run->first, row + run->last + 1, part[std::size_t(run - runs.begin())]);

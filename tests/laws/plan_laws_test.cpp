@@ -14,11 +14,11 @@
 namespace dstylize {
 namespace {
 
+using test::kMetrics;
 using test::random_graph;
 using test::RandomGraph;
 
 constexpr Metric kPathMetrics[] = {Metric::sum, Metric::max_sum, Metric::blend};
-constexpr Metric kMetrics[] = {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend};
 constexpr std::uint32_t kFactor = 5000;
 
 class EveryPlanner : public ::testing::TestWithParam<const Planner* (*)()> {

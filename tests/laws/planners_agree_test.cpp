@@ -9,10 +9,9 @@
 namespace dstylize {
 namespace {
 
+using test::kMetrics;
 using test::random_graph;
 using test::RandomGraph;
-
-constexpr Metric kMetrics[] = {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend};
 
 void expect_reference_answer(const Planner& planner, const RandomGraph& g, std::uint32_t blend_factor = 5000) {
     for (const Metric metric : kMetrics) {

@@ -22,6 +22,8 @@ class Dice {
     std::mt19937 engine_;
 };
 
+inline constexpr Metric kMetrics[] = {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend};
+
 struct RandomGraph {
     WeightedLattice graph;
     std::vector<Source> sources;

@@ -187,7 +187,7 @@ void expect_reference_answer_again(const RandomGraph& g, std::uint32_t seed, Met
 
 TEST(TilePlanner, UsesLabelsAgainWhenSourcesHaveCome) {
     for (std::uint32_t seed = 70000; seed < 70000 + test::fewer_if_sanitized(600); ++seed)
-        for (const Metric metric : {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend})
+        for (const Metric metric : test::kMetrics)
             ASSERT_NO_FATAL_FAILURE(
                 expect_reference_answer_again(random_graph(seed, seed % 30 == 0 ? 200 : 20), seed, metric));
 }

@@ -11,7 +11,7 @@ inline constexpr bool kSanitized = true;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// How many of `cases` random ones a test takes: a fifth under a sanitizer, where each takes several times as long.
-constexpr std::uint32_t fewer_if_sanitized(std::uint32_t cases) { return kSanitized ? cases / 5 : cases; }
+/// How many of `cases` random ones a test takes: a twentieth under a sanitizer, where each takes ten times as long.
+constexpr std::uint32_t fewer_if_sanitized(std::uint32_t cases) { return kSanitized ? cases / 20 : cases; }
 
 }  // namespace dstylize::test

@@ -70,32 +70,32 @@ TEST_F(BadPictureTest, AWrongExtensionDoesNotMatter) {
 }
 
 TEST_F(BadPictureTest, OnePixelIsDrawn) {
-    write_picture(folder_ / "dot.png", flat({1, 1}, {10, 20, 30, 255}));
+    write_png(folder_ / "dot.png", flat({1, 1}, {10, 20, 30, 255}));
     expect_drawn("dot.png", {1, 1}, false);
 }
 
 TEST_F(BadPictureTest, AColumnAndARowAreDrawn) {
-    write_picture(folder_ / "column.png", scene({1, 4000}));
+    write_png(folder_ / "column.png", scene({1, 4000}));
     expect_drawn("column.png", {1, 4000}, false);
-    write_picture(folder_ / "row.png", scene({4000, 1}));
+    write_png(folder_ / "row.png", scene({4000, 1}));
     expect_drawn("row.png", {4000, 1}, false);
 }
 
 TEST_F(BadPictureTest, LongerThanADrawingIsRefusedUnlessASizeIsAsked) {
-    write_picture(folder_ / "line.png", scene({70000, 1}));
+    write_png(folder_ / "line.png", scene({70000, 1}));
     expect_refused("line.png", {"70000 pixels long", "--size"});
     expect_done(draw({"line.png", "out.png", "--size", "600"}));
 }
 
 TEST_F(BadPictureTest, OneColourIsDrawn) {
     for (const std::uint8_t grey : {0, 128, 255}) {
-        write_picture(folder_ / "flat.png", flat({80, 60}, {grey, grey, grey, 255}));
+        write_png(folder_ / "flat.png", flat({80, 60}, {grey, grey, grey, 255}));
         expect_drawn("flat.png", {80, 60}, false);
     }
 }
 
 TEST_F(BadPictureTest, AllTransparentIsRefusedByName) {
-    write_picture(folder_ / "glass.png", flat({80, 60}, {0, 0, 0, 0}));
+    write_png(folder_ / "glass.png", flat({80, 60}, {0, 0, 0, 0}));
     const auto before = folder_.names();
     expect_error(draw({"glass.png", "out.png"}), 1, {"glass.png", "nothing can grow"});
     EXPECT_EQ(folder_.names(), before);
@@ -104,7 +104,7 @@ TEST_F(BadPictureTest, AllTransparentIsRefusedByName) {
 TEST_F(BadPictureTest, EvenlyTranslucentIsDrawn) {
     Picture picture = scene({96, 64});
     for (Rgba8& p : picture) p.a = 90;
-    write_picture(folder_ / "veil.png", picture);
+    write_png(folder_ / "veil.png", picture);
     expect_drawn("veil.png", {96, 64});
 }
 
@@ -112,7 +112,7 @@ TEST_F(BadPictureTest, TransparentPartsStayEmpty) {
     Picture picture = scene({96, 64});
     for (int y = 0; y < 64; ++y)
         for (int x = 48; x < 96; ++x) picture(x, y) = {0, 0, 0, 0};
-    write_picture(folder_ / "half.png", picture);
+    write_png(folder_ / "half.png", picture);
     expect_done(draw({"half.png", "out.png"}));
     const Picture drawing = read_picture(folder_ / "out.png").picture;
     for (int y = 0; y < 64; ++y)
@@ -139,7 +139,7 @@ TEST_F(BadPictureTest, AMaskOfAnotherSizeIsStretched) {
     Picture left = flat({10, 7}, {0, 0, 0, 255});
     for (int y = 0; y < 7; ++y)
         for (int x = 0; x < 5; ++x) left(x, y) = {255, 255, 255, 255};
-    write_picture(folder_ / "left.png", left);
+    write_png(folder_ / "left.png", left);
     expect_done(draw({"in.png", "out.png", "--mask", "left.png"}));
     const Picture drawing = read_picture(folder_ / "out.png").picture;
     int drawn = 0;

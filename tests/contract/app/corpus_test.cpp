@@ -32,7 +32,7 @@ TEST_F(CorpusTest, EveryWholePictureIsReadAtItsSize) {
 }
 
 TEST_F(CorpusTest, DamageIsRefusedInOneLineOrRead) {
-    constexpr std::uint64_t kFiles = kSanitized ? 150 : 1500;
+    constexpr std::uint64_t kFiles = fewer_if_sanitized(1500);
     std::size_t refused = 0;
     for (std::uint64_t n = 0; n < kFiles; ++n) {
         const CorpusFile file = damaged_picture(sound_, n);

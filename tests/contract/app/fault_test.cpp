@@ -89,10 +89,10 @@ class FolderFault : public FaultTest {
         FaultTest::SetUp();
         if (IsSkipped()) return;
         fs::create_directories(folder_ / "photos");
-        write_picture(folder_ / "photos/a.png", scene({60, 50}));
+        write_png(folder_ / "photos/a.png", scene({60, 50}));
         expect_drawn();
         fs::copy(folder_ / "out", folder_ / "before", fs::copy_options::recursive);
-        write_picture(folder_ / "photos/b.png", scene({50, 60}));
+        write_png(folder_ / "photos/b.png", scene({50, 60}));
         expect_drawn();
         whole_ = files_in(folder_ / "out");
         ASSERT_GE(whole_.size(), 9u);

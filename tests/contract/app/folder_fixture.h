@@ -12,9 +12,9 @@ class FolderTest : public AppTest {
     FolderTest() {
         namespace fs = std::filesystem;
         fs::create_directories(folder_ / "photos/sea/deep");
-        write_picture(folder_ / "photos/a.png", scene(kSize));
-        write_picture(folder_ / "photos/sea/b.png", scene({64, 80}));
-        write_picture(folder_ / "photos/sea/deep/c d&.png", flat({40, 40}, {90, 120, 200, 255}));
+        write_png(folder_ / "photos/a.png", scene(kSize));
+        write_png(folder_ / "photos/sea/b.png", scene({64, 80}));
+        write_png(folder_ / "photos/sea/deep/c d&.png", flat({40, 40}, {90, 120, 200, 255}));
         write_file(folder_ / "photos/notes.txt", std::string_view("no picture"));
     }
     /// State of every picture of the last run.

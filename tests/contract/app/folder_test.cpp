@@ -55,7 +55,7 @@ TEST_F(FolderTest, IsDrawnOnceAndAgainOnlyWhereSomethingChanged) {
     EXPECT_EQ(states()["a.png"], "up to date");
     EXPECT_EQ(fs::last_write_time(folder_ / "out/a.png"), drawn_at);
 
-    write_picture(folder_ / "photos/a.png", scene({80, 60}));                // another picture
+    write_png(folder_ / "photos/a.png", scene({80, 60}));                    // another picture
     std::ofstream(folder_ / "out/sea/b.png", std::ios::trunc) << "damaged";  // another result
     expect_done(draw_all());
     EXPECT_EQ(states()["a.png"], "done");
@@ -64,14 +64,14 @@ TEST_F(FolderTest, IsDrawnOnceAndAgainOnlyWhereSomethingChanged) {
     EXPECT_TRUE(file_bytes(folder_ / "out/sea/b.png") == before);
 
     Words now{"photos", "out", "--style", "ink"};
-    write_picture(folder_ / "mask.png", flat({8, 8}, {255, 255, 255, 255}));
+    write_png(folder_ / "mask.png", flat({8, 8}, {255, 255, 255, 255}));
     for (const Words& more : {Words{"--detail", "60"}, Words{"--set", "width.widest=3"}, Words{"--seed", "2"},
                               Words{"--mask", "mask.png"}, Words{"--quality", "90"}, Words{"--size", "50"}}) {
         now.insert(now.end(), more.begin(), more.end());
         expect_done(run(now));
         for (const auto& [picture, state] : states()) EXPECT_EQ(state, "done") << more[0] << " " << picture;
     }
-    write_picture(folder_ / "mask.png", flat({9, 9}, {255, 255, 255, 255}));
+    write_png(folder_ / "mask.png", flat({9, 9}, {255, 255, 255, 255}));
     expect_done(run(now));
     EXPECT_EQ(states()["a.png"], "done") << "the mask's content counts, not its name";
 }
@@ -93,11 +93,11 @@ TEST_F(FolderTest, GoesOnPastBadPicturesAndNamesThem) {
 TEST_F(FolderTest, GivesTheSameBytesOnAnyThreadsAndWhateverElseIsThere) {
     expect_done(draw_all({"--threads", "1"}));
     fs::remove_all(folder_ / "photos/sea/deep");
-    write_picture(folder_ / "photos/0.png", scene({50, 50}));
+    write_png(folder_ / "photos/0.png", scene({50, 50}));
     expect_done(draw({"photos", "other", "--threads", "3"}));
     for (const char* name : {"a.png", "sea/b.png"})
         EXPECT_TRUE(file_bytes(folder_ / "out" / name) == file_bytes(folder_ / "other" / name)) << name;
-    write_picture(folder_ / "photos/sea/a.png", scene(kSize));
+    write_png(folder_ / "photos/sea/a.png", scene(kSize));
     expect_done(draw({"photos", "other"}));
     EXPECT_FALSE(file_bytes(folder_ / "other/a.png") == file_bytes(folder_ / "other/sea/a.png"))
         << "each picture has a seed of its own";
@@ -170,14 +170,14 @@ TEST_F(FolderTest, KeepsTheExtensionsOfPicturesWhoseResultsWouldBeOne) {
 
 TEST_F(FolderTest, LeavesItsOwnResultsAndWhatIsHiddenOutOfTheInput) {
     fs::create_directories(folder_ / "photos/.cache");
-    write_picture(folder_ / "photos/.cache/x.png", scene({30, 30}));
+    write_png(folder_ / "photos/.cache/x.png", scene({30, 30}));
     fs::create_directory_symlink("..", folder_ / "photos/sea/loop");
     for (int times = 0; times < 2; ++times) expect_done(draw({"photos", "photos/drawn"}));
     EXPECT_EQ(states("photos/drawn").size(), 3u);
 }
 
 TEST_F(FolderTest, KilledAtAnyMomentEndsAsIfItHadNotBeen) {
-    for (int k = 0; k < 6; ++k) write_picture(folder_ / "photos" / (std::to_string(k) + ".png"), scene({70 + k, 60}));
+    for (int k = 0; k < 6; ++k) write_png(folder_ / "photos" / (std::to_string(k) + ".png"), scene({70 + k, 60}));
     expect_done(draw({"photos", "whole"}));
     const auto whole = results(folder_ / "whole");
     ASSERT_EQ(whole.size(), 9u);
@@ -198,7 +198,7 @@ TEST_F(FolderTest, KilledAtAnyMomentEndsAsIfItHadNotBeen) {
 }
 
 TEST_F(FolderTest, KeepsPicturesApartFromItsOwnReport) {
-    write_picture(folder_ / "photos/report.png", scene({30, 30}));
+    write_png(folder_ / "photos/report.png", scene({30, 30}));
     expect_done(draw_all({"--format", "json"}));
     EXPECT_EQ(json::parse(std::ifstream(folder_ / "out/report.png.json"))["format"], "dstylize skeleton");
     EXPECT_EQ(states()["report.png"], "done");
@@ -213,7 +213,7 @@ TEST_F(FolderTest, SaysInADryRunWhatItWouldDoAndDoesNothing) {
 
 TEST_F(FolderTest, ReplacesNothingThatItDidNotMake) {
     fs::create_directory(folder_ / "out");
-    write_picture(folder_ / "out/a.png", flat({5, 5}, {1, 2, 3, 255}));
+    write_png(folder_ / "out/a.png", flat({5, 5}, {1, 2, 3, 255}));
     const auto before = file_bytes(folder_ / "out/a.png");
     EXPECT_EQ(draw_all().exit_code, 5);
     EXPECT_TRUE(file_bytes(folder_ / "out/a.png") == before);

@@ -27,7 +27,7 @@ TEST_F(OddNames, StayInTheFolderOfTheDrawings) {
                                       "*.png",
                                       "~.png",
                                       "\\..\\up.png"};
-    for (const std::string& name : names) write_picture(folder_ / ("photos/" + name), scene({20, 20}));
+    for (const std::string& name : names) write_png(folder_ / ("photos/" + name), scene({20, 20}));
     const auto before = folder_.names();
     const Outcome outcome = draw({"photos", "out"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -40,7 +40,7 @@ TEST_F(OddNames, StayInTheFolderOfTheDrawings) {
 }
 
 TEST_F(OddNames, NoLinkTakesReportsOrThumbnailsElsewhere) {
-    write_picture(folder_ / "photos/a.png", scene({20, 20}));
+    write_png(folder_ / "photos/a.png", scene({20, 20}));
     for (const std::string link :
          {"report.json", "index.html", ".dstylize/ledger.jsonl", ".dstylize/thumbnails/a.png.before.jpg"}) {
         SCOPED_TRACE(link);

@@ -69,7 +69,7 @@ TEST_F(OutputTest, SizesAreWhatTheySay) {
 }
 
 TEST_F(OutputTest, APaperIsTurnedAsThePictureIs) {
-    write_picture(folder_ / "tall.png", scene({60, 120}));
+    write_png(folder_ / "tall.png", scene({60, 120}));
     expect_done(draw({"tall.png", "out.png", "--size", "A6@50dpi"}));
     EXPECT_EQ(read_picture(folder_ / "out.png").picture.extent(), (Extent{146, 291}));
 }
@@ -129,7 +129,7 @@ TEST_F(OutputTest, ABackgroundPictureCoversTheFrame) {
     Picture tall = flat({40, 400}, {0, 0, 255, 255});
     for (int y = 180; y < 220; ++y)
         for (int x = 0; x < 40; ++x) tall(x, y) = {0, 200, 0, 255};  // all that the frame shows
-    write_picture(folder_ / "tall.png", tall);
+    write_png(folder_ / "tall.png", tall);
     const Picture ground = drawn({"--background", "tall.png"}), none = drawn({"--background", "none"}, "none.png");
     for (std::size_t n = 0; n < none.size(); ++n)
         if (none[n].a == 0) {
@@ -172,7 +172,7 @@ TEST_F(OutputTest, OurOwnFilesAreReplacedOthersOnlyByForce) {
         expect_done(draw({"in.png", out, "--seed", "2"}));
         EXPECT_NE(file_bytes(folder_ / out), first) << format;
     }
-    write_picture(folder_ / "theirs.png", scene(kSize));
+    write_png(folder_ / "theirs.png", scene(kSize));
     const std::string theirs = file_bytes(folder_ / "theirs.png");
     expect_error(draw({"in.png", "theirs.png"}), 4, {"theirs.png", "--force"});
     EXPECT_EQ(file_bytes(folder_ / "theirs.png"), theirs);

@@ -7,9 +7,9 @@ namespace {
 class RecipeTest : public AppTest {
   protected:
     RecipeTest() {
-        write_picture(folder_ / "mask.png", flat({9, 9}, {255, 255, 255, 255}));
-        write_picture(folder_ / "map.png", scene({40, 40}));
-        write_picture(folder_ / "ground.png", flat({50, 50}, {220, 200, 180, 255}));
+        write_png(folder_ / "mask.png", flat({9, 9}, {255, 255, 255, 255}));
+        write_png(folder_ / "map.png", scene({40, 40}));
+        write_png(folder_ / "ground.png", flat({50, 50}, {220, 200, 180, 255}));
     }
     Words everything(Words words) const {
         words.insert(words.end(), {"--seed", "77", "--root", "0.5,0.9", "--root", "3,60", "--size", "200%", "--mask",
@@ -56,8 +56,8 @@ TEST_F(RecipeTest, TheRecipeFileIsAStyle) {
     expect_done(draw({"in.png", "a.json", "--set", "stroke.smooth=9", "--recipe", "a.toml"}));
     expect_done(run({"in.png", "b.json", "--style", "a.toml", "--no-recipe"}));
     const auto skeleton = [&](const std::string& name) {
-        const std::string json = file_bytes(folder_ / name);
-        return json.substr(json.find("\"stages\""));
+        const std::string text = file_bytes(folder_ / name);
+        return text.substr(text.find("\"stages\""));
     };
     EXPECT_GT(skeleton("a.json").size(), 1000u);
     EXPECT_EQ(skeleton("b.json"), skeleton("a.json"));
@@ -65,7 +65,7 @@ TEST_F(RecipeTest, TheRecipeFileIsAStyle) {
 
 TEST_F(RecipeTest, AnotherInputIsDrawnAndSaid) {
     expect_done(draw({"in.png", "a.png"}));
-    write_picture(folder_ / "other.png", scene({60, 60}));
+    write_png(folder_ / "other.png", scene({60, 60}));
     const Outcome outcome = run({"replay", "a.png", "other.png", "b.png"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.err.find("other.png: is not the picture that a.png was made from"), std::string::npos)
@@ -93,7 +93,7 @@ TEST_F(RecipeTest, AuxiliaryFilesAreFoundBesideTheDrawing) {
 
 TEST_F(RecipeTest, AMissingOrChangedAuxiliaryFileIsRefused) {
     expect_done(draw(everything({"in.png", "a.png"})));
-    write_picture(folder_ / "map.png", flat({40, 40}, {200, 200, 200, 255}));
+    write_png(folder_ / "map.png", flat({40, 40}, {200, 200, 200, 255}));
     expect_error(run({"replay", "a.png", "in.png", "b.png"}), 3, {"map.png", "is not the file"});
     std::filesystem::remove(folder_ / "map.png");
     expect_error(run({"replay", "a.png", "in.png", "b.png"}), 3, {"map.png", "missing"});

@@ -92,7 +92,7 @@ TEST_F(SbatchTest, ListsTheFolderAnewAndDrawsNothingTwice) {
     const std::string array = folder_ / "out/.dstylize/slurm/array.sbatch";
     EXPECT_EQ(run_script(array, 1), 0);
     const auto drawn_at = fs::last_write_time(folder_ / "out/a.png");
-    write_picture(folder_ / "photos/0.png", scene({50, 50}));  // moves all others into other shards
+    write_png(folder_ / "photos/0.png", scene({50, 50}));  // moves all others into other shards
     expect_done(sbatch({"photos", "out", "--nodes", "1", "--shards", "2"}));
     EXPECT_EQ(run_script(array, 1), 0);
     EXPECT_EQ(run_script(array, 2), 0);

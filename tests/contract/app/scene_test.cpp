@@ -6,7 +6,7 @@ namespace {
 
 class SceneTest : public AppTest {
   protected:
-    SceneTest() { write_picture(folder_ / "land.png", flat({160, 120}, {120, 150, 90, 255})); }
+    SceneTest() { write_png(folder_ / "land.png", flat({160, 120}, {120, 150, 90, 255})); }
     Picture placed(const std::string& name, const Words& more) const {
         Words words{"in.png", name, "--background", "land.png", "--place", "40,20,80,80"};
         words.insert(words.end(), more.begin(), more.end());

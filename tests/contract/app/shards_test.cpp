@@ -9,8 +9,7 @@ namespace fs = std::filesystem;
 class ShardsTest : public FolderTest {
   protected:
     ShardsTest() {
-        for (int k = 0; k < 4; ++k)
-            write_picture(folder_ / "photos" / (std::to_string(k) + ".png"), scene({70 + k, 60}));
+        for (int k = 0; k < 4; ++k) write_png(folder_ / "photos" / (std::to_string(k) + ".png"), scene({70 + k, 60}));
         write_file(folder_ / "photos/bad.jpg", std::string_view("no JPEG"));
     }
     Outcome draw_shard(const std::string& shard, Words more = {}, const std::string& out = "out") const {
@@ -63,7 +62,7 @@ TEST_F(ShardsTest, DrawNothingTwiceInWhateverSharesItIsDone) {
 TEST_F(ShardsTest, KeepToTheFrozenManifest) {
     draw_shard("1/2");
     const std::string frozen = file_bytes(folder_ / "list");
-    write_picture(folder_ / "photos/00.png", scene({30, 30}));
+    write_png(folder_ / "photos/00.png", scene({30, 30}));
     fs::remove(folder_ / "photos/3.png");
     const Outcome outcome = draw_shard("2/2");
     EXPECT_EQ(file_bytes(folder_ / "list"), frozen);

@@ -17,7 +17,7 @@ class Slurm : public FolderTest {
         fs::remove_all(folder_ / "photos");
         fs::create_directories(folder_ / "photos/sea");
         for (int k = 0; k < kPictures; ++k)
-            write_picture(folder_ / "photos/sea" / (std::to_string(k) + ".png"), scene({200 + k, 160}));
+            write_png(folder_ / "photos/sea" / (std::to_string(k) + ".png"), scene({200 + k, 160}));
     }
     Outcome run_styled(Words words) const {
         words.insert(words.end(), style_.begin(), style_.end());

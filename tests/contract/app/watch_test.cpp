@@ -30,12 +30,12 @@ TEST_F(WatchTest, DrawsWhatIsThereAndWhatComesUntilInterrupted) {
     Process watch({DSTYLIZE_PROGRAM, "photos", "out", "--watch", "--style", "ink", "--detail", "64"}, folder_.path());
     EXPECT_TRUE(comes([&] { return is_reported("sea/deep/c d&.png", "done"); }));
 
-    write_picture(folder_ / "photos/new.png", scene({50, 40}));
+    write_png(folder_ / "photos/new.png", scene({50, 40}));
     EXPECT_TRUE(comes([&] { return is_reported("new.png", "done"); }));
     EXPECT_EQ(states().size(), 4u) << "the report is of all";
 
     // Half a picture that its writer does not go on with is named; it is drawn when it is whole.
-    write_picture(folder_ / "whole.png", scene({60, 44}));
+    write_png(folder_ / "whole.png", scene({60, 44}));
     const std::string whole = file_bytes(folder_ / "whole.png");
     write_file(folder_ / "photos/slow.png", std::string_view(whole).substr(0, whole.size() / 2));
     EXPECT_TRUE(comes([&] { return is_reported("slow.png", "failed"); }));

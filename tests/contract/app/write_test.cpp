@@ -19,7 +19,7 @@ class WriteTest : public AppTest {
 };
 
 TEST_F(WriteTest, WritesOnPaperOnAPictureAndFromAMask) {
-    write_picture(folder_ / "mask.png", [] {
+    write_png(folder_ / "mask.png", [] {
         Picture p = flat({90, 60}, {0, 0, 0, 255});
         for (int j = 20; j < 40; ++j)
             for (int i = 20; i < 70; ++i) p(i, j) = {255, 255, 255, 255};
@@ -65,7 +65,7 @@ TEST_F(WriteTest, AReplayWritesTheSameWords) {
 }
 
 TEST_F(WriteTest, RefusesWithOneLine) {
-    write_picture(folder_ / "black.png", flat({30, 20}, {0, 0, 0, 255}));
+    write_png(folder_ / "black.png", flat({30, 20}, {0, 0, 0, 255}));
     expect_error(write({"", "out.png"}), 2, {"the text is empty"});
     expect_error(write({"  ", "out.png"}), 2, {"the text is empty"});
     expect_error(write({"\xff", "out.png"}), 2, {"UTF-8"});
@@ -86,7 +86,7 @@ TEST_F(WriteTest, OcrReadsTheDefaultLetters) {
     for (const char* font : {"DejaVu Sans", "DejaVu Serif", "DejaVu Sans Bold"}) {
         ASSERT_EQ(run({"write", "water", "word.png", "--font", font, "--force"}).exit_code, 0);
         const Picture word = read_picture(folder_ / "word.png").picture;
-        write_picture(folder_ / "small.png", resized(word, {word.extent().x / 4, word.extent().y / 4}));
+        write_png(folder_ / "small.png", resized(word, {word.extent().x / 4, word.extent().y / 4}));
         Process process({reader, "small.png", "-", "--psm", "7"}, folder_.path());
         process.wait();
         EXPECT_TRUE(process.out().starts_with("water")) << font << ": " << process.out();

@@ -23,11 +23,11 @@ TEST_P(WrongUsageTest, IsOneLineAndLeavesNothing) {
     write_file(folder_ / "empty.csv", "# nothing\n");
     write_file(folder_ / "broken.toml", "[style]\nextends = \"ink\"\n[lattice]\ndetial = 100\n");
     write_file(folder_ / "syntax.toml", "[style]\nmetaphor = \n");
-    write_picture(folder_ / "black.png", flat({30, 20}, {0, 0, 0, 255}));
+    write_png(folder_ / "black.png", flat({30, 20}, {0, 0, 0, 255}));
     Picture half = flat({96, 64}, {255, 255, 255, 255});
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 48; ++x) half(x, y) = {0, 0, 0, 255};
-    write_picture(folder_ / "half.png", half);
+    write_png(folder_ / "half.png", half);
     std::filesystem::create_directory(folder_ / "folder");
     const auto before = folder_.names();
 

@@ -11,12 +11,12 @@
 namespace dstylize {
 namespace {
 
-using Paths = std::vector<std::string>;
+using Pictures = std::vector<std::string>;
 
 TEST(Manifest, HoldsAnyName) {
-    const Paths names{"a.png", "sea/b c.jpg", "new\nline", "back\\slash\\n", "\xff\xfe.png", "# hash", "..dots/..x"};
+    const Pictures names{"a.png", "sea/b c.jpg", "new\nline", "back\\slash\\n", "\xff\xfe.png", "# hash", "..dots/..x"};
     EXPECT_EQ(parsed_manifest(manifest_text(names), "m").pictures, names);
-    EXPECT_EQ(parsed_manifest(manifest_text({}), "m").pictures, Paths{});
+    EXPECT_EQ(parsed_manifest(manifest_text({}), "m").pictures, Pictures{});
 }
 
 TEST(Manifest, IsRefusedInEveryLengthButItsOwn) {
@@ -39,7 +39,7 @@ TEST(Manifest, OfManyMakersIsOne) {
         std::vector<std::jthread> makers;
         for (int k = 0; k < kMakers; ++k)
             makers.emplace_back([&, k] {
-                made[std::size_t(k)] = frozen_manifest(folder / "m", [k] { return Paths{std::to_string(k)}; });
+                made[std::size_t(k)] = frozen_manifest(folder / "m", [k] { return Pictures{std::to_string(k)}; });
             });
     }
     for (const Manifest& one : made) EXPECT_EQ(one.xxh128, made[0].xxh128);
