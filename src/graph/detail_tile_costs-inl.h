@@ -164,6 +164,25 @@ void load_costs_of_step(const TileProblem& problem, int tile, std::size_t s, Til
     }
 }
 
+/// What a node gives to the cost of a straight edge (cost[..][0]) and of a diagonal one (cost[..][1]), far where
+/// nothing may pass: so much for each of the edge's two nodes.
+template <int kSteps, class Lane>
+void load_half_costs(const TileProblem& problem, int tile, TileWindow<Lane>& window) {
+    const WeightedLattice& g = problem.graph;
+    const Step kinds[] = {g.lattice.steps()[0], g.lattice.steps()[kSteps - 1]};
+    const Tag<Lane> d;
+    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
+    for (int y = 0; y < kWindow; ++y) {
+        const std::uint16_t* const weight = rows(g.weight.data(), y);
+        for (int x = 0; x < kWindow; x += kLanes<Lane>) {
+            const auto height = far_if_zero<Lane>(lanes_from(d, weight + x));
+            for (int k = 0; k < kSteps / 4; ++k)
+                hn::Store(cost_of<Lane>(height, kinds[k]), d, window.cost[0][k].data() + y * kWindow + x);
+        }
+    }
+    for (int k = 0; k < kSteps / 4; ++k) transpose(window.cost[0][k].data(), window.cost[1][k].data());
+}
+
 /// Fills window.cost, in both orientations. Where edges cost the same both ways, for even steps only.
 template <class Lane>
 void load_costs(const TileProblem& problem, int tile, bool even_only, TileWindow<Lane>& window) {

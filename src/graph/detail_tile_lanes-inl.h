@@ -58,11 +58,14 @@ template <class Lane>
 struct Stretch {
     SweepVec<Lane> left, here, right;
 
-    HWY_INLINE void move_right(const Lane* row, int x) {
+    HWY_INLINE void move_right(SweepVec<Lane> next) {
         left = here;
         here = right;
-        right = x + kSweepLanes<Lane> < kWindow ? hn::Load(SweepTag<Lane>(), row + x + kSweepLanes<Lane>)
-                                                : hn::Set(SweepTag<Lane>(), kFar<Lane>);
+        right = next;
+    }
+    HWY_INLINE void move_right(const Lane* row, int x) {
+        move_right(x + kSweepLanes<Lane> < kWindow ? hn::Load(SweepTag<Lane>(), row + x + kSweepLanes<Lane>)
+                                                   : hn::Set(SweepTag<Lane>(), kFar<Lane>));
     }
 };
 

@@ -20,6 +20,11 @@ struct AddCost {
         return sum_of(label, cost);
     }
 };
+/// The same where an edge costs what its two nodes give to it: half of its length at the weight of each.
+struct AddHalfCosts : AddCost {};
+template <class Rule>
+inline constexpr bool kByHalves = std::is_same_v<Rule, AddHalfCosts>;
+
 struct HighestEdge {
     template <class V>
     static HWY_INLINE V after(V label, V height) {
@@ -44,9 +49,13 @@ inline std::size_t arriving_step(std::span<const Step> steps, Offset arrival, in
 }
 
 /// Costs are stored where edges begin, for even steps only where the other way costs as much.
-template <class Lane>
+template <class Rule, class Lane>
 void find_arrival_costs(const TileWindow<Lane>& window, std::span<const Step> steps, bool even_only, int down,
                         bool transposed, ArrivalCosts<Lane>& costs) {
+    if constexpr (kByHalves<Rule>) {
+        for (int k = 0; k < 2; ++k) costs[k] = window.cost[transposed][k].data();
+        return;
+    }
     for (int k = 0; k < arrivals(int(steps.size())); ++k) {
         const Offset from = kArrivals[k];
         const std::size_t s = arriving_step(steps, from, down, transposed);
@@ -66,25 +75,70 @@ HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, L
     Lane differs = 0;
     const SweepTag<Lane> d;
     for (int x = 0; x < kWindow; ++x) {
-        const Lane old = label[y * kWindow + x];
+        const int at = y * kWindow + x;
+        const Lane old = label[at];
         Lane best = old;
         for (int k = 0; k < arrivals(kSteps); ++k) {
             const Offset from = kArrivals[k];
             if (x - from.dx < 0 || x - from.dx >= kWindow) continue;
-            const Lane before = label[(y - from.dy * kDown) * kWindow + x - from.dx];
-            const auto after = Rule::after(hn::Set(d, before), hn::Set(d, costs[k][y * kWindow + x]));
+            const int before = (y - from.dy * kDown) * kWindow + x - from.dx;
+            auto after = hn::Set(d, label[before]);
+            if constexpr (kByHalves<Rule>) {
+                const Lane* const half = costs[k == 0 ? 0 : 1];
+                after = sum_of(sum_of(after, hn::Set(d, half[before])), hn::Set(d, half[at]));
+            } else {
+                after = Rule::after(after, hn::Set(d, costs[k][at]));
+            }
             best = std::min(best, hn::GetLane(after));
         }
-        label[y * kWindow + x] = best;
+        label[at] = best;
         touched[x] = Lane(touched[x] | (old ^ best));
         differs = Lane(differs | (old ^ best));
     }
     return differs != 0;
 }
 #else
+/// Stores labels that may be lower than the old ones; marks in `touched` and `differs` the lanes that are.
+template <class Lane>
+HWY_INLINE void store_lowered(SweepVec<Lane> old, SweepVec<Lane> lowered, Lane* label, Lane* touched,
+                              SweepVec<Lane>& differs) {
+    const SweepTag<Lane> d;
+    hn::Store(lowered, d, label);
+    const auto fell = hn::Xor(old, lowered);
+    hn::Store(hn::Or(hn::Load(d, touched), fell), d, touched);
+    differs = hn::Or(differs, fell);
+}
+
+/// relax_row from two planes instead of one for each step: the half costs of straight and of diagonal edges.
+template <int kSteps, int kDown, class Lane>
+HWY_INLINE bool relax_row_by_halves(const ArrivalCosts<Lane>& costs, Lane* label, int y, Lane* touched) {
+    const SweepTag<Lane> d;
+    Lane* const row = label + y * kWindow;
+    const Lane *const straight = costs[0] + y * kWindow, *const diagonal = costs[1] + y * kWindow;
+    const auto half_way = [&](const Lane* half, int x) {  // from the nodes of the row before
+        const int at = x - kDown * kWindow;
+        return sum_of(hn::Load(d, row + at), hn::Load(d, half + at));
+    };
+    const auto far = hn::Set(d, kFar<Lane>);
+    Stretch<Lane> a{far, far, half_way(diagonal, 0)};
+    auto differs = hn::Zero(d);
+    for (int x = 0; x < kWindow; x += kSweepLanes<Lane>) {
+        const auto old = hn::Load(d, row + x);
+        auto best = hn::Min(old, sum_of(half_way(straight, x), hn::Load(d, straight + x)));
+        if constexpr (kSteps == 8) {
+            const int next = x + kSweepLanes<Lane>;
+            a.move_right(next < kWindow ? half_way(diagonal, next) : far);
+            best = hn::Min(best, sum_of(hn::Min(shifted<1>(a), shifted<-1>(a)), hn::Load(d, diagonal + x)));
+        }
+        store_lowered(old, best, row + x, touched + x, differs);
+    }
+    return !hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)));
+}
+
 /// Lowers the labels of row y by the edges that arrive at it; marks in `touched` the lanes that fell.
 template <class Rule, int kSteps, int kDown, class Lane>
 HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, Lane* touched) {
+    if constexpr (kByHalves<Rule>) return relax_row_by_halves<kSteps, kDown>(costs, label, y, touched);
     const SweepTag<Lane> d;
     Lane* const row = label + y * kWindow;
     const Lane *const one = row - kDown * kWindow, *const two = one - kDown * kWindow;
@@ -103,10 +157,7 @@ HWY_INLINE bool relax_row(const ArrivalCosts<Lane>& costs, Lane* label, int y, L
             best = hn::Min(best, hn::Min(arrived<Rule, 3>(b, costs, at), arrived<Rule, 4>(b, costs, at)));
             best = hn::Min(best, hn::Min(arrived<Rule, 5>(a, costs, at), arrived<Rule, 6>(a, costs, at)));
         }
-        hn::Store(best, d, row + x);
-        const auto fell = hn::Xor(old, best);
-        hn::Store(hn::Or(hn::Load(d, touched + x), fell), d, touched + x);
-        differs = hn::Or(differs, fell);
+        store_lowered(old, best, row + x, touched + x, differs);
     }
     return !hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)));
 }
@@ -165,7 +216,8 @@ std::uint64_t settle(TileWindow<Lane>& window, const WeightedLattice& graph, boo
     ArrivalCosts<Lane> costs[2][2];
     for (const bool transposed : {false, true})
         for (const int down : {1, -1})
-            find_arrival_costs(window, graph.lattice.steps(), even_only, down, transposed, costs[transposed][down < 0]);
+            find_arrival_costs<Rule>(window, graph.lattice.steps(), even_only, down, transposed,
+                                     costs[transposed][down < 0]);
     std::uint64_t down = job.rows, up = job.rows, right = job.columns, left = job.columns, ever = 0;
     while ((down | up | right | left) != 0) {
         std::uint64_t rows = 0, columns = 0;

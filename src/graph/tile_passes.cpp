@@ -18,11 +18,9 @@ namespace dstylize::HWY_NAMESPACE {
 template <class Lane>
 void load_labels(const TileProblem& problem, int tile, std::uint32_t base, TileWindow<Lane>& window) {
     WindowRows<std::uint32_t> rows(problem.graph.lattice, problem.tiling, tile, ~std::uint32_t{0});
-    for (int y = 0; y < kWindow; ++y) {
-        Lane* const row = window.label[0].data() + y * kWindow;
-        load_row_above(rows(problem.label.data(), y), base, row);
-        std::copy_n(row, kWindow, window.before.data() + y * kWindow);
-    }
+    for (int y = 0; y < kWindow; ++y)
+        load_row_above(rows(problem.label.data(), y), base, window.label[0].data() + y * kWindow);
+    std::copy_n(window.label[0].data(), kWindowNodes, window.before.data());
     transpose(window.label[0].data(), window.label[1].data());
 }
 
@@ -103,7 +101,10 @@ void visit_window(const TileProblem& problem, TileWindow<Lane>& window, TileVisi
     const WeightedLattice& g = problem.graph;
     const bool even_only = problem.rule != TileRule::sum_within_bottleneck && problem.symmetric();
     load_labels(problem, visit.tile, base, window);
-    load_costs(problem, visit.tile, even_only, window);
+    if constexpr (kByHalves<Rule>)
+        load_half_costs<kSteps>(problem, visit.tile, window);
+    else
+        load_costs(problem, visit.tile, even_only, window);
     const std::uint64_t rows = settle<Rule, kSteps>(window, g, even_only, visit.job, visit.rows_relaxed);
     write_back(problem, window, base, rows, visit);
 }
@@ -117,12 +118,23 @@ void visit_lattice(const TileProblem& problem, std::unique_ptr<TileWindow<Lane>>
     switch (problem.graph.lattice.neighbourhood()) {
         case Neighbourhood::square4: return visit_window<Rule, 4>(problem, *window, visit);
         case Neighbourhood::square8: return visit_window<Rule, 8>(problem, *window, visit);
-        case Neighbourhood::square16: return visit_window<Rule, 16>(problem, *window, visit);
+        case Neighbourhood::square16:
+            if constexpr (!kByHalves<Rule>) visit_window<Rule, 16>(problem, *window, visit);
     }
+}
+
+/// Whether the cost of an edge is a sum of what its two nodes give: not with planes of heights, and not where
+/// an edge passes between nodes.
+bool has_half_costs(const TileProblem& problem) {
+    return problem.rule == TileRule::sum && problem.graph.height_plane.empty() &&
+           problem.graph.lattice.neighbourhood() != Neighbourhood::square16;
 }
 
 void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& visit) {
     if (problem.rule == TileRule::bottleneck) return visit_lattice<HighestEdge>(problem, scratch.narrow, visit);
+    if (has_half_costs(problem))
+        return problem.wide ? visit_lattice<AddHalfCosts>(problem, scratch.wide, visit)
+                            : visit_lattice<AddHalfCosts>(problem, scratch.narrow, visit);
     if (problem.wide) return visit_lattice<AddCost>(problem, scratch.wide, visit);
     visit_lattice<AddCost>(problem, scratch.narrow, visit);
 }
