@@ -107,7 +107,7 @@ TEST_P(EveryPlanner, OwnerIsTheOwnerOfTheSourceAtTheEndOfTheParents) {
 }
 
 TEST_P(EveryPlanner, ExactlyTheUnreachableNodesHaveNoLabelParentOrOwner) {
-    int unreachable = 0;
+    std::uint32_t unreachable = 0;
     for (std::uint32_t seed = 0; seed < kRandomGraphs; ++seed) {
         const RandomGraph g = random_graph(seed, 14);
         const std::vector<bool> reached = test::reachable(g);
@@ -123,7 +123,7 @@ TEST_P(EveryPlanner, ExactlyTheUnreachableNodesHaveNoLabelParentOrOwner) {
             }
         }
     }
-    EXPECT_GT(unreachable, 1000) << "the graphs hold too few unreachable nodes to mean anything";
+    EXPECT_GT(unreachable, kRandomGraphs) << "the graphs hold too few unreachable nodes to mean anything";
 }
 
 TEST_P(EveryPlanner, LabelsAddUpAlongTheParents) {
