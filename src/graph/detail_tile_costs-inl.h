@@ -164,8 +164,8 @@ void load_costs_of_step(const TileProblem& problem, int tile, std::size_t s, Til
     }
 }
 
-/// What a node gives to the cost of a straight edge (cost[..][0]) and of a diagonal one (cost[..][1]), far where
-/// nothing may pass: so much for each of the edge's two nodes.
+/// Half costs, in both orientations: what a node adds to the cost of a straight edge (cost[..][0]) and of a diagonal
+/// one (cost[..][1]), far where nothing may pass.
 template <int kSteps, class Lane>
 void load_half_costs(const TileProblem& problem, int tile, TileWindow<Lane>& window) {
     const WeightedLattice& g = problem.graph;

@@ -20,7 +20,7 @@ struct AddCost {
         return sum_of(label, cost);
     }
 };
-/// The same where an edge costs what its two nodes give to it: half of its length at the weight of each.
+/// The same where the cost of an edge is the sum of two half costs: its length times the weight of either node.
 struct AddHalfCosts : AddCost {};
 template <class Rule>
 inline constexpr bool kByHalves = std::is_same_v<Rule, AddHalfCosts>;

@@ -20,7 +20,7 @@ struct alignas(64) Plane {
 template <class Lane>
 struct TileWindow {
     Plane<Lane> label[2];     ///< above the smallest pending one; its margins are far
-    Plane<Lane> cost[2][16];  ///< of the edge that leaves a node by step s
+    Plane<Lane> cost[2][16];  ///< of the edge that leaves a node by step s; or the half costs of load_half_costs()
     Plane<Lane> before;       ///< labels at the beginning of the visit
     Plane<Lane> weight;       ///< of nodes, or
     Plane<Lane> bottleneck;   ///< M

@@ -123,8 +123,7 @@ void visit_lattice(const TileProblem& problem, std::unique_ptr<TileWindow<Lane>>
     }
 }
 
-/// Whether the cost of an edge is a sum of what its two nodes give: not with planes of heights, and not where
-/// an edge passes between nodes.
+/// Not with planes of heights, and not where an edge passes between nodes.
 bool has_half_costs(const TileProblem& problem) {
     return problem.rule == TileRule::sum && problem.graph.height_plane.empty() &&
            problem.graph.lattice.neighbourhood() != Neighbourhood::square16;

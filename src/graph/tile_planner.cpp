@@ -17,6 +17,9 @@
 //   - Edges that do not exist are as dear as "far", and sums stop there; so masks and the border of
 //     the lattice need no thought.
 //
+// An edge over node weights costs the sum of two half costs, one of each node; `sum` then loads two planes of
+// these, for straight and diagonal steps, instead of one plane for each step.
+//
 // `max-sum` takes two passes: first the bottlenecks M, the same with maxima instead of sums; then the
 // sums over those edges u -> v alone for which max(M(u), h) = M(v). Its labels rank M first, so that a
 // node's M never depends on sums, and this is what best-first search with that order finds.
