@@ -44,9 +44,8 @@ class SpanningTree {
             const std::uint32_t a = smaller_node(e->index), b = larger_node(e->index);
             const std::uint32_t from = is_settled(a) ? a : b, to = a + b - from;
             least_[to] = kSettled;
-            const PathLabel& before = plan_.label[from];
-            plan_.label[to] = {std::max(before.highest, e->height),
-                               before.sum + std::uint64_t(e->height) * forward_[e->index % kRanks].length5};
+            plan_.label[to].sum =
+                plan_.label[from].sum + std::uint64_t(e->height) * forward_[e->index % kRanks].length5;
             plan_.parent[to] = NodeId{from};
             plan_.owner[to] = plan_.owner[from];
             offer_edges_of(to);

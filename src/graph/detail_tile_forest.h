@@ -37,7 +37,7 @@ struct TileEdge {
 struct SiftedTile {
     Plane<std::uint16_t> weight;     ///< far where nothing may pass
     Plane<std::uint16_t> height[4];  ///< of the edge that leaves a node by kForward[k]; far where there is none
-    Plane<std::uint16_t> root;       ///< a node of the same tree, for all of a tree the same
+    Plane<std::uint16_t> root;       ///< a node of the same tree, nearer its root: most often that
     Plane<std::uint8_t> chosen;      ///< bit s: step s is a node's least edge
     Plane<std::uint8_t> steps;       ///< bit s: the edge by step s is in the spanning forest
     /// TileEdge keys of those that may be in the forest as well, unordered.

@@ -7,17 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "graph/detail_node_record.h"
+#include "graph/detail_forest_walk.h"
 #include "graph/detail_tile_forest.h"
+#include "graph/detail_tree_joiner.h"
 
 namespace dstylize {
-
-/// The root of a node's tree, where every node points towards it; ways to it are halved by the way.
-template <class Index>
-Index root_of(Index* parent, Index n) {
-    while (parent[n] != n) n = parent[n] = parent[parent[n]];
-    return n;
-}
 
 inline constexpr std::uint16_t kNoTree = 0xffff;
 
@@ -28,7 +22,7 @@ struct OpenEdge {
 };
 
 /// What is left of a tile.
-struct TileForest {
+struct TileRemainder {
     static constexpr int kSide = kWindow - 2;
     std::vector<OpenEdge> open;
     std::array<std::uint16_t, std::size_t{4} * kSide> border;  // trees of the outermost own nodes
@@ -47,56 +41,46 @@ class TileGrower {
   public:
     TileGrower(const WeightedLattice& graph, const Tiling& tiling) : graph_(graph), tiling_(tiling) {}
 
-    /// Of `nodes`, sets the tile's own.
-    TileForest grow(int tile, std::span<const std::uint16_t> sources, std::span<NodeRecord> nodes) {
+    /// Sets the tile's own nodes in `forest`.
+    TileRemainder grow(int tile, std::span<const std::uint16_t> sources, Forest& forest) {
         std::array<std::uint64_t, kWindow> is_source{};
         for (const int n : sources) is_source[std::size_t(n / kWindow)] |= std::uint64_t{1} << n % kWindow;
         sift_tile(graph_, tiling_, tile, is_source, sifted_);
         sorter_(sifted_.edge, sifted_.edge_count, hwy::SortAscending());
-        begin(sources);
+        joiner_.begin({sifted_.root.data(), kWindowNodes});
+        for (const std::uint16_t n : sources) joiner_.unite(sources[0], n);
+        if (!sources.empty()) joiner_.freeze(sources[0]);
+        open_.clear();
         for (std::size_t i = 0; i < sifted_.edge_count; ++i) take(TileEdge(sifted_.edge[i]));
-        TileForest out = numbered(sources);
-        store(tile, nodes);
+        TileRemainder out = numbered(sources);
+        store(tile, forest);
         return out;
     }
 
   private:
-    void begin(std::span<const std::uint16_t> sources) {
-        std::copy_n(sifted_.root.data(), kWindowNodes, joined_);
-        std::fill_n(is_frozen_, kWindowNodes, false);
-        open_.clear();
-        for (const std::uint16_t n : sources) joined_[root_of(joined_, n)] = root_of(joined_, sources[0]);
-        if (!sources.empty()) is_frozen_[root_of(joined_, sources[0])] = true;
-        std::copy_n(joined_, kWindowNodes, grown_);
-    }
-
     void take(TileEdge e) {
         const std::uint16_t u = std::uint16_t(e.node()), v = std::uint16_t(e.other());
         if (is_rim(u) || is_rim(v)) {
-            is_frozen_[root_of(joined_, is_rim(u) ? v : u)] = true;
+            joiner_.freeze(is_rim(u) ? v : u);
             if (!is_rim(u)) open_.push_back({e, u, kNoTree});  // else the other tile's
             return;
         }
-        const std::uint16_t a = root_of(joined_, u), b = root_of(joined_, v);
-        if (a == b) return;
-        joined_[b] = a;
-        if (is_frozen_[a] && is_frozen_[b]) {
-            open_.push_back({e, u, v});
-            return;
+        switch (joiner_.take(u, v)) {
+            case EdgeFate::closes_ring: return;
+            case EdgeFate::stays_open: open_.push_back({e, u, v}); return;
+            case EdgeFate::joins: break;
         }
-        is_frozen_[a] = is_frozen_[a] || is_frozen_[b];
-        grown_[root_of(grown_, v)] = root_of(grown_, u);
         const unsigned step = kForwardStep[std::size_t(e.forward())];
         sifted_.steps.data()[u] |= std::uint8_t(1u << step);
         sifted_.steps.data()[v] |= std::uint8_t(1u << (step ^ 1u));
     }
 
     /// Trees that something outside may ask for, counted.
-    TileForest numbered(std::span<const std::uint16_t> sources) {
-        TileForest out;
+    TileRemainder numbered(std::span<const std::uint16_t> sources) {
+        TileRemainder out;
         std::fill_n(number_, kWindowNodes, kNoTree);
         const auto number = [&](std::uint16_t node) {
-            std::uint16_t& n = number_[root_of(grown_, node)];
+            std::uint16_t& n = number_[joiner_.root(node)];
             if (n == kNoTree) n = std::uint16_t(out.tree_count++);
             return n;
         };
@@ -104,25 +88,25 @@ class TileGrower {
             e.tree = number(e.tree);
             if (e.other != kNoTree) e.other = number(e.other);
         }
-        constexpr int kLast = TileForest::kSide - 1;
+        constexpr int kLast = TileRemainder::kSide - 1;
         for (int i = 0; i <= kLast; ++i)
             for (const auto& [x, y] : {std::pair(i, 0), {i, kLast}, {0, i}, {kLast, i}})
-                out.border[TileForest::border_place(x, y)] = number(std::uint16_t((y + 1) * kWindow + x + 1));
+                out.border[TileRemainder::border_place(x, y)] = number(std::uint16_t((y + 1) * kWindow + x + 1));
         if (!sources.empty()) out.source_tree = number(sources[0]);
         out.open = open_;
         return out;
     }
 
-    void store(int tile, std::span<NodeRecord> nodes) const {
+    void store(int tile, Forest& forest) const {
         const Extent e = graph_.lattice.extent();
         const Offset origin = tiling_.origin(tile);
-        const int width = std::min(TileForest::kSide, e.x - origin.dx - 1);
+        const std::size_t width = std::size_t(std::min(TileRemainder::kSide, e.x - origin.dx - 1));
         for (int y = 1; y < kWindow - 1 && origin.dy + y < e.y; ++y) {
-            const std::uint32_t first = index(graph_.lattice.at(origin.dx + 1, origin.dy + y));
-            for (int x = 0; x < width; ++x) {
-                const std::uint32_t n = first + std::uint32_t(x);
-                nodes[n] = unreached(graph_.weight[n], sifted_.steps.data()[y * kWindow + 1 + x]);
-            }
+            const std::size_t first = index(graph_.lattice.at(origin.dx + 1, origin.dy + y));
+            const std::uint8_t* const steps = sifted_.steps.data() + y * kWindow + 1;
+            const NodeWeight* const weight = graph_.weight.data() + first;
+            std::copy_n(steps, width, forest.step.data() + first);
+            std::transform(weight, weight + width, steps, forest.node.data() + first, unreached);
         }
     }
 
@@ -130,10 +114,8 @@ class TileGrower {
     const Tiling& tiling_;
     SiftedTile sifted_;
     hwy::Sorter sorter_;
-    std::uint16_t joined_[kWindowNodes];  // by edges that are in the forest or open
-    std::uint16_t grown_[kWindowNodes];   // by those that are in the forest
+    TreeJoiner<std::uint16_t> joiner_;  // a tree has the number of one of its nodes
     std::uint16_t number_[kWindowNodes];
-    bool is_frozen_[kWindowNodes];  // of the roots in joined_
     std::vector<OpenEdge> open_;
 };
 

@@ -155,20 +155,26 @@ inline std::vector<Arrival> arrivals_of_row(const WeightedLattice& g, const Step
     return arrivals;
 }
 
-/// Calls stretch(column) so that stretches of so many nodes cover the row but for its ends, and does those one by
-/// one. The last two stretches overlap.
-template <class Stretched>
-HWY_INLINE void cover_row(const ParentRow& r, const StepOrder& order, int at_once, std::uint8_t* out,
-                          Stretched stretch) {
-    const int width = r.graph.lattice.extent().x, end = width - kReach;
+/// Calls stretch(column) so that stretches of so many nodes cover a row but for its ends, and single(column) there. The
+/// last two stretches overlap.
+template <class Single, class Stretched>
+HWY_INLINE void cover_row(int width, int at_once, Single single, Stretched stretch) {
+    const int end = width - kReach;
     int column = std::min(kReach, width);
-    for (int c = 0; c < column; ++c) out[c] = parent_of(r, order, c);
+    for (int c = 0; c < column; ++c) single(c);
     if (end - column >= at_once) {
         for (; column + at_once <= end; column += at_once) stretch(column);
         if (column < end) stretch(end - at_once);
         column = end;
     }
-    for (; column < width; ++column) out[column] = parent_of(r, order, column);
+    for (; column < width; ++column) single(column);
+}
+
+/// The same where single nodes are done by the definition.
+template <class Stretched>
+HWY_INLINE void cover_row(const ParentRow& r, const StepOrder& order, int at_once, std::uint8_t* out,
+                          Stretched stretch) {
+    cover_row(r.graph.lattice.extent().x, at_once, [&](int c) { out[c] = parent_of(r, order, c); }, stretch);
 }
 
 template <bool kBottleneck, bool kPlanes>

@@ -105,28 +105,16 @@ inline void mark_chosen(SiftedTile& t) {
     }
 }
 
-/// Of two nodes that chose each other the smaller becomes the root; then every node is led to its root, by turns
-/// upwards and downwards: either way what lies behind is at its root already.
+/// Leads nodes on towards the roots of their trees, by turns downwards and upwards: either way what lies behind is far
+/// on its way already, and few have not arrived in the end. Of two nodes that chose each other the first to be led on,
+/// the smaller one, comes to itself and is the root.
 inline void find_roots(SiftedTile& t) {
     constexpr int kFirst = kWindow, kEnd = kWindow * (kWindow - 1);
     std::uint16_t* const root = t.root.data();
-    for (int n = kFirst; n < kEnd; ++n) {
-        const int other = root[n];
-        root[n] = std::uint16_t(root[other] == n ? std::min(n, other) : other);
-    }
-    unsigned moved = 1;
-    const auto lead_on = [&](int n) {
-        const std::uint16_t up = root[n], above = root[up];
-        moved |= unsigned(up ^ above);
-        root[n] = above;
-    };
-    while (moved != 0) {
-        moved = 0;
-        for (int n = kFirst; n < kEnd; ++n) lead_on(n);
-        if (moved == 0) return;
-        moved = 0;
-        for (int n = kEnd - 1; n >= kFirst; --n) lead_on(n);
-    }
+    const auto lead_on = [&](int n) { root[n] = root[root[n]]; };
+    for (int n = kFirst; n < kEnd; ++n) lead_on(n);
+    for (int n = kEnd - 1; n >= kFirst; --n) lead_on(n);
+    for (int n = kFirst; n < kEnd; ++n) lead_on(n);
 }
 
 /// A node and a place in kForward, counted from a node nearby.

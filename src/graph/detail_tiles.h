@@ -118,6 +118,12 @@ struct ParentRequest {
 /// The step from its parent to each node of the rows, ParentColumn::kNoStep at unreached ones, in its place in `step`.
 void find_parents(const ParentRequest& request, int first_row, int end_row, std::span<std::uint8_t> step);
 
+/// Makes parents of a forest: where `step` has the steps of a node's edges (bit s: the edge by step s), writes the step
+/// from its parent, which is the one neighbour along them with a smaller sum; where there is none, kNoStep. Whether all
+/// these nodes' sums are below kUnreachedWord.
+bool find_forest_parents(const Lattice& lattice, std::span<const std::uint32_t> sum, int first_row, int end_row,
+                         std::span<std::uint8_t> step);
+
 /// The largest of the values, 0 if there are none.
 std::uint16_t largest_value(std::span<const std::uint16_t> values);
 

@@ -13,21 +13,29 @@
 #include <span>
 
 #include "graph/detail_owners.h"
+#include "graph/detail_tiles.h"
 #include "graph/detail_workers.h"
 
 namespace dstylize {
 namespace {
 
-/// A node that is to be reached by a step from one with this weight. One word: what is read back at once has to be
-/// read as it was written.
+/// A node that is to be reached, by a step, with what is known of its sum before it is looked at. One word: what is
+/// read back at once has to be read as it was written.
 class FrontierNode {
   public:
     FrontierNode() = default;
-    FrontierNode(std::uint32_t node, unsigned step, std::uint32_t weight_before)
-        : word_(std::uint64_t{step} << 48 | std::uint64_t{weight_before} << 32 | node) {}
-    std::uint32_t node() const { return std::uint32_t(word_); }
-    unsigned step() const { return unsigned(word_ >> 48); }
-    std::uint32_t weight_before() const { return std::uint32_t(word_ >> 32) & 0xffff; }
+    FrontierNode(std::uint32_t place, std::uint32_t sum) : word_(std::uint64_t{sum} << 32 | place) {}
+    /// A node and a step. Places are added as nodes are.
+    static constexpr std::uint32_t place(std::uint32_t node, unsigned step) { return node << 3 | step; }
+    std::uint32_t place() const { return std::uint32_t(word_); }
+    std::uint32_t node() const { return place() >> 3; }
+    unsigned step() const { return unsigned(word_) & 7; }
+    std::uint32_t sum() const { return std::uint32_t(word_ >> 32); }
+    /// Without a branch, as no processor guesses which.
+    static FrontierNode choose(bool second, FrontierNode a, FrontierNode b) {
+        a.word_ ^= (a.word_ ^ b.word_) & (std::uint64_t{0} - second);
+        return a;
+    }
 
   private:
     std::uint64_t word_;
@@ -80,35 +88,51 @@ class WalkPool {
 
 class ForestWalk {
   public:
-    ForestWalk(const WeightedLattice& graph, UnsetVector<NodeRecord> nodes, const Work& work)
-        : graph_(graph), work_(work), node_(std::move(nodes)) {
+    ForestWalk(const WeightedLattice& graph, Forest forest, const Work& work)
+        : graph_(graph), work_(work), forest_(std::move(forest)) {
         const auto steps = graph.lattice.steps();
         for (std::size_t s = 0; s < steps.size(); ++s)
-            ahead_[s] = {std::uint32_t(steps[s].dy * graph.lattice.extent().x + steps[s].dx), steps[s].length5};
+            ahead_[s] = {
+                FrontierNode::place(std::uint32_t(steps[s].dy * graph.lattice.extent().x + steps[s].dx), unsigned(s)),
+                steps[s].length5};
     }
 
     std::optional<Plan> run(const std::vector<Source>& sources) && {
-        WalkPool pool;
-        for (const Source& s : sources) {
-            if (s.start >= kUnreached) return {};
-            std::array<FrontierNode, 8> next;
-            const std::size_t count =
-                settle(index(s.node), std::uint32_t(s.start), 0, ParentColumn::kNoStep, next.data());
-            pool.add({next.data(), count});
-        }
-        run_workers(thread_count(work_),
-                    [&](int) { graph_.height_plane.empty() ? walk<false>(pool) : walk<true>(pool); });
+        graph_.height_plane.empty() ? walk_from<false>(sources) : walk_from<true>(sources);
         work_.check();
         if (!fits_) return {};
-        ParentColumn parent(graph_.lattice, finish_labels());
+        find_parents();
+        for (const Source& s : sources) forest_.step[index(s.node)] = ParentColumn::kNoStep;
+        ParentColumn parent(graph_.lattice, std::move(forest_.step));
         OwnerColumn owner = owners_by_parents(parent, sources, work_);
-        return Plan{std::move(node_), std::move(parent), std::move(owner)};
+        return Plan{{std::move(forest_.node), {}}, std::move(parent), std::move(owner)};
     }
 
   private:
-    static constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
     static constexpr std::size_t kWays = 32;
-    static constexpr std::size_t kMostChildren = 7;
+    static constexpr std::size_t kMostChildren = 8;
+
+    /// A node that has its sum, and the steps by which the walk goes on.
+    struct ReachedNode {
+        std::uint32_t node, sum, weight, children;
+    };
+
+    template <bool kPlanes>
+    void walk_from(const std::vector<Source>& sources) {
+        WalkPool pool;
+        for (const Source& s : sources) {
+            if (s.start >= kUnreachedWord) {
+                fits_ = false;
+                return;
+            }
+            ReachedNode at = settle(index(s.node), std::uint32_t(s.start));
+            while (at.children != 0) {
+                const FrontierNode child = take_child<kPlanes>(at);
+                pool.add({&child, 1});
+            }
+        }
+        run_workers(thread_count(work_), [&](int) { walk<kPlanes>(pool); });
+    }
 
     template <bool kPlanes>
     void walk(WalkPool& pool) {
@@ -130,7 +154,8 @@ class ForestWalk {
         }
     }
 
-    /// Every way some nodes on; what waits is the next on a way that ends. Returns how many ways are left.
+    /// Every way some nodes on: to the first child; the others wait, and one that waits is next on a way that ends.
+    /// Returns how many ways are left.
     template <bool kPlanes>
     std::size_t follow(std::span<FrontierNode> way, UnsetVector<FrontierNode>& waiting) {
         constexpr std::size_t kTurns = 64;
@@ -138,13 +163,21 @@ class ForestWalk {
         waiting.resize(top + kTurns * kWays * kMostChildren);
         for (std::size_t turn = 0; turn < kTurns; ++turn) {
             for (std::size_t w = 0; w < ways; ++w) {
-                top += reach<kPlanes>(way[w], waiting.data() + top);
-                if (top == 0) {
+                ReachedNode at = reach<kPlanes>(way[w]);
+                const bool ends = at.children == 0;
+                if (ends && top == 0) {
                     way[w--] = way[--ways];
                     continue;
                 }
-                way[w] = waiting[--top];
-                hwy::Prefetch(&node_[way[w].node()]);
+                const FrontierNode waited = waiting[top - (top != 0)], first = take_child<kPlanes>(at);
+                top -= ends;
+                // One more without asking: how many there are no processor guesses.
+                std::size_t more = at.children != 0;
+                waiting[top] = take_child<kPlanes>(at);
+                top += more;
+                while (at.children != 0) waiting[top++] = take_child<kPlanes>(at);
+                way[w] = FrontierNode::choose(ends, first, waited);
+                hwy::Prefetch(&forest_.node[way[w].node()]);
             }
         }
         waiting.resize(top);
@@ -152,68 +185,65 @@ class ForestWalk {
     }
 
     template <bool kPlanes>
-    std::size_t reach(FrontierNode at, FrontierNode* next) {
-        const std::uint32_t v = at.node();
-        const unsigned step = at.step();
-        const std::uint32_t u = v - ahead_[step].offset;
+    ReachedNode reach(FrontierNode to) {
+        const std::uint32_t v = to.node();
+        const unsigned step = to.step();
+        const Ahead& by = ahead_[step];
         const std::uint32_t height =
-            kPlanes ? graph_.height_plane[step / 2][step % 2 == 0 ? u : v] : at.weight_before() + node_[v].sum;
-        const std::uint64_t sum = node_[u].sum + std::uint64_t{height} * ahead_[step].length5;
-        if (sum >= kUnreached) fits_ = false;
-        return settle(v, std::uint32_t(sum), std::max(node_[u].highest & kHighest, height), step, next);
+            kPlanes ? graph_.height_plane[step / 2][step % 2 == 0 ? (to.place() - by.place) >> 3 : v]
+                    : forest_.node[v] & 0xffff;
+        ReachedNode reached = settle(v, to.sum() + height * by.length5);
+        reached.children &= ~(1u << (step ^ 1u));
+        return reached;
     }
 
-    /// Labels a node. `next`: room for its children, and for three at least; how many they are.
-    std::size_t settle(std::uint32_t v, std::uint32_t sum, std::uint32_t highest, unsigned step, FrontierNode* next) {
-        NodeRecord& node = node_[v];
-        const std::uint32_t weight = node.sum;
-        unsigned children = node.highest >> kStepShift;
-        if (step != ParentColumn::kNoStep) children &= ~(1u << (step ^ 1u));
-        node = {sum, step << kStepShift | kReached | highest};
-        std::size_t count = 0;
-        const auto put = [&] {
-            const unsigned by = unsigned(std::countr_zero(children)) % 8;
-            next[count] = {v + ahead_[by].offset, by, weight};
-            count += children != 0;
-            children &= children - 1;
-        };
-        // Three without asking: how many there are no processor guesses.
-        put();
-        put();
-        put();
-        while (children != 0) put();
-        return count;
+    ReachedNode settle(std::uint32_t v, std::uint32_t sum) {
+        WalkedNode& node = forest_.node[v];
+        const ReachedNode reached{v, sum, node & 0xffff, node >> 16 & 0xff};
+        if (sum >= kUnreachedWord) fits_ = false;
+        node = sum;
+        return reached;
     }
 
-    /// Makes labels of the records, and parents' steps.
-    UnsetVector<std::uint8_t> finish_labels() {
-        UnsetVector<std::uint8_t> step(node_.size());
-        share_out(node_.size(), work_, [&](std::size_t first, std::size_t end) {
-            for (std::size_t n = first; n < end; ++n) {
-                const std::uint32_t highest = node_[n].highest;
-                const bool reached = (highest & kReached) != 0;
-                step[n] = reached ? std::uint8_t(highest >> kStepShift) : ParentColumn::kNoStep;
-                node_[n] = {reached ? node_[n].sum : kUnreached, highest & kHighest};
-            }
+    /// The first child, which is no child any more; anything if there is none.
+    template <bool kPlanes>
+    FrontierNode take_child(ReachedNode& at) const {
+        const Ahead& ahead = ahead_[std::size_t(std::countr_zero(at.children | 1u << kMostChildren))];
+        at.children &= at.children - 1;
+        return {FrontierNode::place(at.node, 0) + ahead.place,
+                kPlanes ? at.sum : at.sum + at.weight * ahead.length5};
+    }
+
+    /// Makes parents of the steps, and says which nodes are unreached.
+    void find_parents() {
+        const Extent e = graph_.lattice.extent();
+        std::atomic<bool> all_reached{true};
+        share_out(std::size_t(e.y), work_, [&](std::size_t first, std::size_t end) {
+            if (!find_forest_parents(graph_.lattice, forest_.node, int(first), int(end), forest_.step))
+                all_reached = false;
         });
-        return step;
+        if (all_reached) return;
+        share_out(forest_.node.size(), work_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t n = first; n < end; ++n)
+                if (forest_.node[n] >= kUnreachedWord) forest_.node[n] = LabelColumn::kUnreached32;
+        });
     }
 
     struct Ahead {
-        std::uint32_t offset, length5;
+        std::uint32_t place, length5;
     };
     const WeightedLattice& graph_;
     const Work& work_;
-    std::array<Ahead, 8> ahead_{};
-    UnsetVector<NodeRecord> node_;
+    std::array<Ahead, kMostChildren + 1> ahead_{};  // the last leads nowhere
+    Forest forest_;
     std::atomic<bool> fits_{true};
 };
 
 }  // namespace
 
-std::optional<Plan> walk_forest(const WeightedLattice& graph, UnsetVector<NodeRecord> nodes,
-                                const std::vector<Source>& sources, const Work& work) {
-    return ForestWalk(graph, std::move(nodes), work).run(sources);
+std::optional<Plan> walk_forest(const WeightedLattice& graph, Forest forest, const std::vector<Source>& sources,
+                                const Work& work) {
+    return ForestWalk(graph, std::move(forest), work).run(sources);
 }
 
 }  // namespace dstylize

@@ -51,7 +51,7 @@ struct BlendOrder {
 /// its best paths are those of the one minimum spanning tree, which grows by its smallest leaving edge
 /// (Prim); so the last edge alone ranks. The argument holds for heights that depend on direction, too.
 struct LexicographicOrder {
-    PathLabel label(PathLabel before, const PathEdge& e) const { return extended(before, e); }
+    PathLabel label(PathLabel before, const PathEdge& e) const { return {0, extended(before, e).sum}; }
     Rank rank(PathLabel, const PathEdge& e) const { return e.to == kNoNode ? Rank{} : Rank{e.height, edge_index(e)}; }
     /// Edges are counted by their smaller node, then by their larger one, whichever way they are walked.
     static std::uint64_t edge_index(const PathEdge& e) {

@@ -10,11 +10,11 @@
 
 namespace dstylize {
 
-/// What it costs to reach a node by its tree path, or kUnreached in `sum`. For `lexicographic` the two
-/// describe that path, but it is not by them that paths were compared.
+/// What it costs to reach a node by its tree path, or kUnreached in `sum`. For `lexicographic` the sum
+/// describes that path, but it is not by it that paths were compared.
 struct PathLabel {
     static constexpr std::uint64_t kUnreached = std::numeric_limits<std::uint64_t>::max();
-    std::uint32_t highest = 0;       ///< highest edge of the path (0 for `sum`)
+    std::uint32_t highest = 0;       ///< highest edge of the path, where the metric compares it alone; else 0
     std::uint64_t sum = kUnreached;  ///< start label of its source + sum of the edge costs
     friend bool operator==(const PathLabel&, const PathLabel&) = default;
 };
@@ -27,35 +27,26 @@ struct PathLabel {
 class LabelColumn {
   public:
     static constexpr std::uint32_t kUnreached32 = std::numeric_limits<std::uint32_t>::max();
-    struct Narrow {
-        std::uint32_t sum, highest;
-    };
     LabelColumn() = default;
     LabelColumn(std::vector<PathLabel> labels) : wide_(std::move(labels)) {}
     /// Sums below kUnreached32, which stands for "unreached"; `highest` is empty where all are 0.
     LabelColumn(UnsetVector<std::uint32_t> sum, UnsetVector<std::uint32_t> highest)
         : sum_(std::move(sum)), highest_(std::move(highest)) {}
-    LabelColumn(UnsetVector<Narrow> labels) : narrow_(std::move(labels)) {}
 
-    std::size_t size() const { return wide_.size() + sum_.size() + narrow_.size(); }
+    std::size_t size() const { return wide_.size() + sum_.size(); }
     PathLabel operator[](std::size_t n) const {
-        if (!narrow_.empty()) {
-            if (narrow_[n].sum == kUnreached32) return {};
-            return {narrow_[n].highest, narrow_[n].sum};
-        }
         if (sum_.empty()) return wide_[n];
         if (sum_[n] == kUnreached32) return {};
         return {highest_.empty() ? 0 : highest_[n], sum_[n]};
     }
-    /// The sums and the highest edges, where they are stored column by column.
+    /// The sums and the highest edges, where these are narrow.
     std::span<const std::uint32_t> sums() const { return sum_; }
     std::span<const std::uint32_t> highest() const { return highest_; }
     friend bool operator==(const LabelColumn& a, const LabelColumn& b);
 
   private:
     std::vector<PathLabel> wide_;
-    UnsetVector<std::uint32_t> sum_, highest_;  // column by column, or
-    UnsetVector<Narrow> narrow_;                // node by node, as they were filled
+    UnsetVector<std::uint32_t> sum_, highest_;
 };
 
 /// Parents: 1 byte on a regular lattice, the number of the step that leads from the parent to the node.

@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include "graph/detail_tile_costs-inl.h"
+#include "graph/detail_tile_forest_parents-inl.h"
 #include "graph/detail_tile_low_parents-inl.h"
 #include "graph/detail_tile_parents-inl.h"
 #include "graph/detail_tile_sift-inl.h"
@@ -182,6 +183,7 @@ namespace dstylize {
 
 HWY_EXPORT(visit_tile);
 HWY_EXPORT(find_parents);
+HWY_EXPORT(find_forest_parents);
 HWY_EXPORT(sift_tile);
 HWY_EXPORT(largest_value);
 
@@ -194,6 +196,11 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
 
 void find_parents(const ParentRequest& request, int first_row, int end_row, std::span<std::uint8_t> step) {
     HWY_DYNAMIC_DISPATCH(find_parents)(request, first_row, end_row, step.data());
+}
+
+bool find_forest_parents(const Lattice& lattice, std::span<const std::uint32_t> sum, int first_row, int end_row,
+                         std::span<std::uint8_t> step) {
+    return HWY_DYNAMIC_DISPATCH(find_forest_parents)(lattice, sum.data(), first_row, end_row, step.data());
 }
 
 void sift_tile(const WeightedLattice& graph, const Tiling& tiling, int tile,

@@ -191,7 +191,7 @@ TEST(Lexicographic, PathIsTheLeastOfAllPathsEdgeByEdge) {
             Best b{k, {}, {0, start}};
             for (const Edge& e : path) {
                 b.nodes.push_back(e.from);
-                b.label = {std::max(b.label.highest, e.height), b.label.sum + e.cost};
+                b.label.sum += e.cost;
             }
             best[end] = b;
         });
