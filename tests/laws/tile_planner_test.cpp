@@ -100,6 +100,24 @@ TEST(TilePlanner, AgreesWithTheReferenceWhereTilesEnd) {
             }
 }
 
+TEST(TilePlanner, SpanningForestsAgreeWhereBlocksOfTilesMeet) {
+    std::uint32_t seed = 0;
+    for (const Extent e : {Extent{496, 496}, {497, 40}, {40, 1000}, {560, 530}})
+        for (const std::uint32_t sources : {1u, 2u, 60u}) {
+            Dice dice(++seed);
+            const std::uint32_t heaviest = dice.one_in(2) ? 4 : 3000;
+            std::vector<NodeWeight> weight(e.count());
+            for (NodeWeight& w : weight) w = dice.one_in(8) ? 0 : NodeWeight(1 + dice.below(heaviest));
+            RandomGraph g = weighted(e, Neighbourhood::square8, std::move(weight));
+            g.sources.clear();
+            while (g.sources.size() < sources) {
+                const NodeId n{dice.below(std::uint32_t(e.count()))};
+                if (g.graph.weight[index(n)] != 0) g.sources.push_back({n, dice.below(50), std::uint16_t(seed)});
+            }
+            ASSERT_NO_FATAL_FAILURE(expect_reference_answer(g, Metric::lexicographic, 1 + int(seed % 3)));
+        }
+}
+
 /// Walls from side to side with a gap at alternate ends: one path through all of it.
 RandomGraph serpentine(Extent e, NodeWeight floor, NodeWeight wall) {
     std::vector<NodeWeight> weight(e.count(), floor);
