@@ -1,6 +1,7 @@
 #pragma once
 #include <hwy/cache_control.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -36,9 +37,52 @@ struct Forest {
 
 /// What a walk can count.
 inline constexpr std::size_t kMostWalkedNodes = std::size_t{1} << 29;
+inline constexpr std::size_t kMostWalkedSteps = 8;
+
+/// Where a walk is to go on, a stack: nodes that are to be reached, each by a step, with what is known of its sum
+/// before it is looked at: all, but for its own weight's share or, with planes of heights, the edge's cost.
+struct Frontier {
+    UnsetVector<std::uint32_t> place;  ///< place_of(node, step)
+    UnsetVector<std::uint32_t> sum;
+
+    /// Places are added as nodes are.
+    static constexpr std::uint32_t place_of(std::uint32_t node, unsigned step) { return node << 3 | step; }
+
+    std::size_t size() const { return place.size(); }
+    void resize(std::size_t size) {
+        place.resize(size);
+        sum.resize(size);
+    }
+    void push(std::uint32_t node_place, std::uint32_t known) {
+        place.push_back(node_place);
+        sum.push_back(known);
+    }
+    /// Moves entries from `first` on, so many, to the end of another.
+    void move_to(Frontier& other, std::size_t first, std::size_t count);
+};
+
+/// The ground of a walk.
+struct WalkGround {
+    explicit WalkGround(const WeightedLattice& g);
+    /// Of the edge to a place, in planes of heights.
+    std::uint32_t height_to(std::uint32_t place) const {
+        const unsigned step = place % kMostWalkedSteps;
+        return graph.height_plane[step / 2][(step % 2 == 0 ? place - ahead[step] : place) >> 3];
+    }
+    const WeightedLattice& graph;
+    /// Of each step the place that it adds to a node's, and its length; as many as a vector has lanes.
+    alignas(64) std::array<std::uint32_t, 16> ahead{}, length5{};
+};
+
+/// How many nodes walk_on is at once on its way to.
+inline constexpr std::size_t kWays = 64;
+/// Reaches some of the nodes that lie behind a frontier of kWays nodes at least, many at a time, until few are left or
+/// some thousands are reached. False if a sum is kUnreachedWord or more. (Compiled for several instruction sets.)
+bool walk_on(const WalkGround& ground, UnsetVector<WalkedNode>& node, Frontier& frontier);
 
 /// Labels, parents and owners of the nodes that a forest leads to from the sources; nothing where a sum is
-/// kUnreachedWord or more. At most eight steps, and kMostWalkedNodes. Uses `work.threads` threads. O(nodes).
+/// kUnreachedWord or more. At most kMostWalkedSteps steps and kMostWalkedNodes nodes. Uses `work.threads` threads.
+/// O(nodes).
 std::optional<Plan> walk_forest(const WeightedLattice& graph, Forest forest, const std::vector<Source>& sources,
                                 const Work& work);
 

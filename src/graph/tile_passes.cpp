@@ -12,6 +12,7 @@
 #include "graph/detail_tile_parents-inl.h"
 #include "graph/detail_tile_sift-inl.h"
 #include "graph/detail_tile_sweeps-inl.h"
+#include "graph/detail_tile_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
@@ -185,6 +186,7 @@ HWY_EXPORT(visit_tile);
 HWY_EXPORT(find_parents);
 HWY_EXPORT(find_forest_parents);
 HWY_EXPORT(sift_tile);
+HWY_EXPORT(walk_on);
 HWY_EXPORT(largest_value);
 
 TileScratch::TileScratch() = default;
@@ -206,6 +208,10 @@ bool find_forest_parents(const Lattice& lattice, std::span<const std::uint32_t> 
 void sift_tile(const WeightedLattice& graph, const Tiling& tiling, int tile,
                std::span<const std::uint64_t, kWindow> sources, SiftedTile& sifted) {
     HWY_DYNAMIC_DISPATCH(sift_tile)(graph, tiling, tile, sources, sifted);
+}
+
+bool walk_on(const WalkGround& ground, UnsetVector<WalkedNode>& node, Frontier& frontier) {
+    return HWY_DYNAMIC_DISPATCH(walk_on)(ground, node.data(), frontier);
 }
 
 std::uint16_t largest_value(std::span<const std::uint16_t> values) {
