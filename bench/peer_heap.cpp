@@ -206,7 +206,7 @@ struct Leaving {
 template <class Edges>
 LabelColumn prim(const WeightedLattice& g, NodeId source) {
     const Edges edges(g);
-    using Rule = MaxSumRule;
+    using Rule = SumRule;
     std::vector<Rule::Label> label(edges.nodes(), Rule::kFar);
     std::vector<std::uint64_t> least(edges.nodes(), ~std::uint64_t{0});  // height_and_smaller of what leads there
     MinHeap<Leaving> heap;
