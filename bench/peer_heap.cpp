@@ -154,11 +154,12 @@ using MinHeap = std::priority_queue<T, std::vector<T>, std::greater<>>;
 template <class Rule, class Edges>
 LabelColumn column_of(const std::vector<typename Rule::Label>& label, const Edges& edges, std::size_t count) {
     constexpr bool kHasHighest = requires(typename Rule::Label l) { Rule::highest(l); };
-    UnsetVector<std::uint32_t> sum(count), highest(kHasHighest ? count : 0);
+    UnsetVector<std::uint32_t> sum(count);
+    UnsetVector<std::uint16_t> highest(kHasHighest ? count : 0);
     for (std::uint32_t n = 0; n < count; ++n) {
         const auto& l = label[edges.place(n)];
         sum[n] = Rule::sum(l);
-        if constexpr (kHasHighest) highest[n] = Rule::highest(l);
+        if constexpr (kHasHighest) highest[n] = std::uint16_t(Rule::highest(l));
     }
     return {std::move(sum), std::move(highest)};
 }

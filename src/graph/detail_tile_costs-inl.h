@@ -124,9 +124,12 @@ void load_nodes(const TileProblem& problem, int tile, TileWindow<Lane>& window) 
         }
     }
     if (problem.rule == TileRule::sum_within_bottleneck) {
-        WindowRows<std::uint32_t> rows(g.lattice, problem.tiling, tile, ~std::uint32_t{0});
-        for (int y = 0; y < kWindow; ++y)
-            load_row_above(rows(problem.bottleneck.data(), y), 0, window.bottleneck.data() + y * kWindow);
+        WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, kFar<std::uint16_t>);
+        for (int y = 0; y < kWindow; ++y) {
+            const std::uint16_t* const m = rows(problem.bottleneck.data(), y);
+            for (int x = 0; x < kWindow; x += kLanes<Lane>)
+                hn::Store(lanes_from(d, m + x), d, window.bottleneck.data() + y * kWindow + x);
+        }
     }
 }
 

@@ -22,7 +22,8 @@ namespace dstylize::HWY_NAMESPACE {
 /// A row of nodes and the labels that their parents are to explain.
 struct ParentRow {
     const WeightedLattice& graph;
-    const std::uint32_t *sum, *bottleneck;  // of all nodes; no bottlenecks for `sum`
+    const std::uint32_t* sum;         // of all nodes
+    const std::uint16_t* bottleneck;  // the same; none for `sum`
     int row;
 };
 
@@ -54,7 +55,7 @@ inline std::uint8_t parent_of(const ParentRow& r, const StepOrder& order, int co
         if (r.bottleneck == nullptr) {
             if (r.sum[u] >= best_s) continue;
         } else {
-            if (std::max(r.bottleneck[u], height) != r.bottleneck[v]) continue;
+            if (std::max(std::uint32_t{r.bottleneck[u]}, height) != r.bottleneck[v]) continue;
             if (best != ParentColumn::kNoStep &&
                 (r.bottleneck[u] > best_m || (r.bottleneck[u] == best_m && r.sum[u] >= best_s)))
                 continue;
@@ -123,7 +124,7 @@ HWY_INLINE void parents_of_stretch(const ParentRow& r, std::span<const Arrival> 
     auto own = hn::Zero(d), m_v = hn::Zero(d), best_m = hn::Set(d, ~0u);
     auto best_s = sum_v, best = hn::Set(d, ParentColumn::kNoStep);
     if constexpr (!kPlanes) own = lanes_from(d, weight + v);
-    if constexpr (kBottleneck) m_v = hn::LoadU(d, r.bottleneck + v);
+    if constexpr (kBottleneck) m_v = lanes_from(d, r.bottleneck + v);
     for (const Arrival& by : arrivals) {
         const auto height = heights_to<kPlanes, std::uint32_t>(weight, v, own, by);
         const auto sum_u = hn::LoadU(d, r.sum + (v + by.from));
@@ -131,7 +132,7 @@ HWY_INLINE void parents_of_stretch(const ParentRow& r, std::span<const Arrival> 
         // Costs are not 0, so a parent's sum is smaller; then nothing wrapped, and the edge exists.
         auto better = hn::Eq(reached, sum_v);
         if constexpr (kBottleneck) {
-            const auto m_u = hn::LoadU(d, r.bottleneck + (v + by.from));
+            const auto m_u = lanes_from(d, r.bottleneck + (v + by.from));
             better = hn::And(hn::And(better, hn::Lt(sum_u, sum_v)), hn::Eq(hn::Max(m_u, height), m_v));
             better = hn::And(better, hn::Or(hn::Lt(m_u, best_m), hn::And(hn::Eq(m_u, best_m), hn::Lt(sum_u, best_s))));
             best_m = hn::IfThenElse(better, m_u, best_m);

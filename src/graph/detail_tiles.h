@@ -72,8 +72,10 @@ struct TileProblem {
     TileRule rule;
     bool wide;                                  ///< 32-bit lanes instead of 16-bit ones
     std::uint32_t largest_step;                 ///< no edge adds more to a label (0 for `bottleneck`)
-    std::span<std::uint32_t> label;             ///< one per node; ~0: unreached
-    std::span<const std::uint32_t> bottleneck;  ///< M, for `sum_within_bottleneck`
+    std::span<std::uint32_t> sum;               ///< labels, one per node; ~0: unreached
+    std::span<std::uint16_t> bottleneck;        ///< M: the labels of `bottleneck`; ~0: unreached
+
+    std::uint32_t label(NodeId n) const { return rule == TileRule::bottleneck ? bottleneck[index(n)] : sum[index(n)]; }
 
     /// Whether edges cost the same both ways.
     bool symmetric() const { return graph.height_plane.empty() || graph.symmetric; }
@@ -112,7 +114,8 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
 /// Labels at rest, whose parents are wanted. `bottleneck` is empty for `sum`; no edge costs more than `largest_step`.
 struct ParentRequest {
     const WeightedLattice& graph;
-    std::span<const std::uint32_t> sum, bottleneck;
+    std::span<const std::uint32_t> sum;
+    std::span<const std::uint16_t> bottleneck;
     std::uint32_t largest_step;
 };
 /// The step from its parent to each node of the rows, ParentColumn::kNoStep at unreached ones, in its place in `step`.

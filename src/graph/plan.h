@@ -23,30 +23,31 @@ struct PathLabel {
 // column takes decides how long it takes to fill: each has a narrow form for what is usual and a wide
 // one for anything. Both read the same.
 
-/// Labels: 4 bytes where sums fit and nothing has a highest edge, 8 where something has; else 16.
+/// Labels: 4 bytes where sums fit and nothing has a highest edge, 6 where something has and it fits; else 16.
 class LabelColumn {
   public:
     static constexpr std::uint32_t kUnreached32 = std::numeric_limits<std::uint32_t>::max();
     LabelColumn() = default;
     LabelColumn(std::vector<PathLabel> labels) : wide_(std::move(labels)) {}
     /// Sums below kUnreached32, which stands for "unreached"; `highest` is empty where all are 0.
-    LabelColumn(UnsetVector<std::uint32_t> sum, UnsetVector<std::uint32_t> highest)
+    LabelColumn(UnsetVector<std::uint32_t> sum, UnsetVector<std::uint16_t> highest)
         : sum_(std::move(sum)), highest_(std::move(highest)) {}
 
     std::size_t size() const { return wide_.size() + sum_.size(); }
     PathLabel operator[](std::size_t n) const {
         if (sum_.empty()) return wide_[n];
         if (sum_[n] == kUnreached32) return {};
-        return {highest_.empty() ? 0 : highest_[n], sum_[n]};
+        return {highest_.empty() ? 0u : highest_[n], sum_[n]};
     }
     /// The sums and the highest edges, where these are narrow.
     std::span<const std::uint32_t> sums() const { return sum_; }
-    std::span<const std::uint32_t> highest() const { return highest_; }
+    std::span<const std::uint16_t> highest() const { return highest_; }
     friend bool operator==(const LabelColumn& a, const LabelColumn& b);
 
   private:
     std::vector<PathLabel> wide_;
-    UnsetVector<std::uint32_t> sum_, highest_;
+    UnsetVector<std::uint32_t> sum_;
+    UnsetVector<std::uint16_t> highest_;
 };
 
 /// Parents: 1 byte on a regular lattice, the number of the step that leads from the parent to the node.

@@ -19,31 +19,39 @@ namespace dstylize::HWY_NAMESPACE {
 
 template <class Lane>
 void load_labels(const TileProblem& problem, int tile, std::uint32_t base, TileWindow<Lane>& window) {
-    WindowRows<std::uint32_t> rows(problem.graph.lattice, problem.tiling, tile, ~std::uint32_t{0});
-    for (int y = 0; y < kWindow; ++y)
-        load_row_above(rows(problem.label.data(), y), base, window.label[0].data() + y * kWindow);
-    std::copy_n(window.label[0].data(), kWindowNodes, window.before.data());
-    transpose(window.label[0].data(), window.label[1].data());
+    Lane* const label = window.label[0].data();
+    if constexpr (sizeof(Lane) == 2)
+        if (problem.rule == TileRule::bottleneck) {
+            WindowRows<std::uint16_t> rows(problem.graph.lattice, problem.tiling, tile, kFar<std::uint16_t>);
+            for (int y = 0; y < kWindow; ++y)
+                std::copy_n(rows(problem.bottleneck.data(), y), kWindow, label + y * kWindow);
+        }
+    if (problem.rule != TileRule::bottleneck) {
+        WindowRows<std::uint32_t> rows(problem.graph.lattice, problem.tiling, tile, ~std::uint32_t{0});
+        for (int y = 0; y < kWindow; ++y) load_row_above(rows(problem.sum.data(), y), base, label + y * kWindow);
+    }
+    std::copy_n(label, kWindowNodes, window.before.data());
+    transpose(label, window.label[1].data());
 }
 
 /// Writes the lanes of `fell` back. Whole vectors where the window is inside the lattice: others' nodes
 /// in the same row must not be touched.
-template <class Lane>
+template <class Lane, class Label>
 HWY_INLINE void store_row(const Lane* now, const Lane* before, std::uint32_t base, std::uint64_t fell, bool inside,
-                          std::uint32_t* label) {
+                          Label* label) {
     if (!inside) {
         for (; fell != 0; fell &= fell - 1) {
             const int x = std::countr_zero(fell);
-            label[x] = base + now[x];
+            label[x] = Label(base + now[x]);
         }
         return;
     }
-    const Tag<std::uint32_t> d;
+    const Tag<Label> d;
     const hn::Rebind<Lane, decltype(d)> half;
-    for (int x = 0; x < kWindow; x += kLanes<std::uint32_t>) {
+    for (int x = 0; x < kWindow; x += kLanes<Label>) {
         const auto lanes = hn::LoadU(half, now + x), old = hn::LoadU(half, before + x);
-        if constexpr (sizeof(Lane) == 4) {
-            hn::BlendedStore(hn::Add(lanes, hn::Set(d, base)), hn::Lt(lanes, old), d, label + x);
+        if constexpr (sizeof(Lane) == sizeof(Label)) {
+            hn::BlendedStore(hn::Add(lanes, hn::Set(d, Label(base))), hn::Lt(lanes, old), d, label + x);
         } else {
             const auto wide = hn::PromoteTo(d, lanes);
             hn::BlendedStore(hn::Add(wide, hn::Set(d, base)), hn::Lt(wide, hn::PromoteTo(d, old)), d, label + x);
@@ -82,7 +90,10 @@ void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std:
         const std::uint64_t fell = lanes_below(now, before);
         if (fell == 0) continue;
         const std::ptrdiff_t begin = std::ptrdiff_t(origin.dy + y) * width + origin.dx;
-        store_row(now, before, base, fell, inside, problem.label.data() + begin);
+        if (problem.rule != TileRule::bottleneck)
+            store_row(now, before, base, fell, inside, problem.sum.data() + begin);
+        else if constexpr (sizeof(Lane) == 2)
+            store_row(now, before, base, fell, inside, problem.bottleneck.data() + begin);
         const int band = y < rim ? 0 : y < kWindow - rim ? 1 : 2;
         const std::uint64_t row = std::uint64_t{1} << (y + (1 - band) * side);
         Pending* const beside = &visit.after[std::size_t(3 * band)];
@@ -145,7 +156,7 @@ void find_parents(const ParentRequest& request, int first_row, int end_row, std:
     const Extent e = graph.lattice.extent();
     const StepOrder order(graph.lattice.steps());
     const bool planes = !graph.height_plane.empty(), symmetric = !planes || graph.symmetric;
-    const std::uint32_t* const bottleneck = request.bottleneck.empty() ? nullptr : request.bottleneck.data();
+    const std::uint16_t* const bottleneck = request.bottleneck.empty() ? nullptr : request.bottleneck.data();
     const bool by_low_bits = bottleneck == nullptr && symmetric && request.largest_step <= kLargestLowCost;
     LowRows low(by_low_bits ? e.x : 0);
     int loaded = std::max(0, first_row - kReach);

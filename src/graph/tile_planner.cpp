@@ -31,7 +31,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "graph/bucket_planner.h"
@@ -46,8 +48,6 @@
 namespace dstylize {
 namespace {
 
-using Labels = UnsetVector<std::uint32_t>;
-constexpr std::uint32_t kUnreached = LabelColumn::kUnreached32;
 constexpr std::uint32_t kLargestBottleneck = 65534;
 /// Above that 16-bit windows see too few steps ahead.
 constexpr std::uint32_t kLargestNarrowStep = 20000;
@@ -76,7 +76,7 @@ bool settle_labels(const TileProblem& problem, const std::vector<Source>& source
     for (const Source& s : sources) {
         const int i = lattice.column(s.node), j = lattice.row(s.node), tile = tiling.tile_of(i, j);
         const Offset origin = tiling.origin(tile);
-        const std::uint32_t label = problem.label[index(s.node)];
+        const std::uint32_t label = problem.label(s.node);
         Pending pending;
         pending.add(label, label, std::uint64_t{1} << (j - origin.dy), std::uint64_t{1} << (i - origin.dx));
         queue.add(tile, pending);
@@ -106,15 +106,23 @@ bool settle_labels(const TileProblem& problem, const std::vector<Source>& source
     return fits;
 }
 
-/// What an earlier plan says of labels that mean this; empty if nothing.
-std::span<const std::uint32_t> labels_before(const Plan* earlier, TileRule rule) {
-    if (earlier == nullptr || rule == TileRule::sum_within_bottleneck) return {};
-    return rule == TileRule::sum ? earlier->label.sums() : earlier->label.highest();
+/// Labels to begin with: those of an earlier plan, if there are any, else none.
+template <class Label>
+UnsetVector<Label> first_labels(std::size_t nodes, std::span<const Label> earlier, const Work& work) {
+    UnsetVector<Label> label(nodes);
+    share_out(nodes, work, [&](std::size_t first, std::size_t end) {
+        const auto out = label.begin() + std::ptrdiff_t(first);
+        if (earlier.size() == nodes)
+            std::copy_n(earlier.begin() + std::ptrdiff_t(first), end - first, out);
+        else
+            std::fill_n(out, end - first, std::numeric_limits<Label>::max());
+    });
+    return label;
 }
 
 /// Gives the sources their labels; those that fell by it.
-template <class LabelOf>
-std::vector<Source> fallen(const std::vector<Source>& sources, Labels& label, LabelOf label_of) {
+template <class Label, class LabelOf>
+std::vector<Source> fallen(const std::vector<Source>& sources, UnsetVector<Label>& label, LabelOf label_of) {
     std::vector<Source> out;
     for (const Source& s : sources) {
         if (label_of(s) >= label[index(s.node)]) continue;
@@ -124,7 +132,8 @@ std::vector<Source> fallen(const std::vector<Source>& sources, Labels& label, La
     return out;
 }
 
-ParentColumn parents(const WeightedLattice& g, const Labels& sum, const Labels& bottleneck, std::uint32_t largest_step,
+ParentColumn parents(const WeightedLattice& g, std::span<const std::uint32_t> sum,
+                     std::span<const std::uint16_t> bottleneck, std::uint32_t largest_step,
                      const std::vector<Source>& sources, const Work& work) {
     UnsetVector<std::uint8_t> step(sum.size());
     share_out(std::size_t(g.lattice.extent().y), work, [&](std::size_t first, std::size_t end) {
@@ -153,26 +162,22 @@ std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStat
     if (has_bottlenecks && bounds.height > kLargestBottleneck) return {};
 
     const Plan* const earlier = reusable_plan(request, sources);
-    Labels sum, bottleneck;
+    const std::size_t nodes = g.lattice.node_count();
     const Tiling tiling(g.lattice);
-    const auto problem = [&](TileRule rule, bool wide_lanes, std::uint32_t largest_step, Labels& label) {
-        const std::span<const std::uint32_t> before = labels_before(earlier, rule);
-        label.resize(g.lattice.node_count());
-        share_out(label.size(), work, [&](std::size_t first, std::size_t end) {
-            const auto out = label.begin() + std::ptrdiff_t(first);
-            if (before.size() == label.size())
-                std::copy_n(before.begin() + std::ptrdiff_t(first), end - first, out);
-            else
-                std::fill_n(out, end - first, kUnreached);
-        });
-        return TileProblem{g, tiling, rule, wide_lanes, largest_step, label, bottleneck};
-    };
+    UnsetVector<std::uint16_t> bottleneck;
     if (has_bottlenecks) {
-        const TileProblem highest = problem(TileRule::bottleneck, false, 0, bottleneck);
-        settle_labels(highest, fallen(sources, bottleneck, [](const Source&) { return 0u; }), work, stats);
+        std::span<const std::uint16_t> before;
+        if (earlier != nullptr) before = earlier->label.highest();
+        bottleneck = first_labels(nodes, before, work);
+        const auto start = [](const Source&) { return std::uint16_t{0}; };
+        const std::vector<Source> first = fallen(sources, bottleneck, start);
+        settle_labels({g, tiling, TileRule::bottleneck, false, 0, {}, bottleneck}, first, work, stats);
     }
     const TileRule rule = has_bottlenecks ? TileRule::sum_within_bottleneck : TileRule::sum;
-    const TileProblem sums = problem(rule, wide, bounds.cost(), sum);
+    std::span<const std::uint32_t> sums_before;
+    if (earlier != nullptr && !has_bottlenecks) sums_before = earlier->label.sums();
+    UnsetVector<std::uint32_t> sum = first_labels(nodes, sums_before, work);
+    const TileProblem sums{g, tiling, rule, wide, bounds.cost(), sum, bottleneck};
     for (const Source& s : sources)
         if (s.start > sums.largest_base()) return {};
     const auto start = [](const Source& s) { return std::uint32_t(s.start); };
