@@ -175,7 +175,8 @@ HWY_INLINE void cover_row(int width, int at_once, Single single, Stretched stret
 template <class Stretched>
 HWY_INLINE void cover_row(const ParentRow& r, const StepOrder& order, int at_once, std::uint8_t* out,
                           Stretched stretch) {
-    cover_row(r.graph.lattice.extent().x, at_once, [&](int c) { out[c] = parent_of(r, order, c); }, stretch);
+    cover_row(
+        r.graph.lattice.extent().x, at_once, [&](int c) { out[c] = parent_of(r, order, c); }, stretch);
 }
 
 template <bool kBottleneck, bool kPlanes>

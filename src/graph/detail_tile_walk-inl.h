@@ -46,8 +46,8 @@ struct ReachedNodes {
 HWY_INLINE WalkVec lowest_bit(WalkVec bits) {
     const WalkTag d;
     const auto lowest = hn::AndNot(hn::Sub(bits, hn::Set(d, 1u)), bits);
-    const auto exponent = hn::BitCast(
-        d, hn::ConvertTo(hn::RebindToFloat<WalkTag>(), hn::BitCast(hn::RebindToSigned<WalkTag>(), lowest)));
+    const auto exponent =
+        hn::BitCast(d, hn::ConvertTo(hn::RebindToFloat<WalkTag>(), hn::BitCast(hn::RebindToSigned<WalkTag>(), lowest)));
     return hn::And(hn::Add(hn::ShiftRight<23>(exponent), hn::Set(d, 1u)), hn::Set(d, kMostWalkedSteps - 1u));
 }
 

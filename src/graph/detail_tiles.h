@@ -70,10 +70,10 @@ struct TileProblem {
     const WeightedLattice& graph;
     Tiling tiling;
     TileRule rule;
-    bool wide;                                  ///< 32-bit lanes instead of 16-bit ones
-    std::uint32_t largest_step;                 ///< no edge adds more to a label (0 for `bottleneck`)
-    std::span<std::uint32_t> sum;               ///< labels, one per node; ~0: unreached
-    std::span<std::uint16_t> bottleneck;        ///< M: the labels of `bottleneck`; ~0: unreached
+    bool wide;                            ///< 32-bit lanes instead of 16-bit ones
+    std::uint32_t largest_step;           ///< no edge adds more to a label (0 for `bottleneck`)
+    std::span<std::uint32_t> sum;         ///< labels, one per node; ~0: unreached
+    std::span<std::uint16_t> bottleneck;  ///< M: the labels of `bottleneck`; ~0: unreached
 
     std::uint32_t label(NodeId n) const { return rule == TileRule::bottleneck ? bottleneck[index(n)] : sum[index(n)]; }
 

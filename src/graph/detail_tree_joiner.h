@@ -62,8 +62,8 @@ class TreeJoiner {
         while (parent[n] != n) n = parent[n] = parent[parent[n]];
         return n;
     }
-    std::vector<Tree> joined_;  // by edges that are in the forest or open
-    std::vector<Tree> grown_;   // by those that are in the forest
+    std::vector<Tree> joined_;             // by edges that are in the forest or open
+    std::vector<Tree> grown_;              // by those that are in the forest
     std::vector<std::uint8_t> is_frozen_;  // of the roots in joined_
 };
 

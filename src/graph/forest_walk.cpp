@@ -150,8 +150,7 @@ void Frontier::move_to(Frontier& other, std::size_t first, std::size_t count) {
 WalkGround::WalkGround(const WeightedLattice& g) : graph(g) {
     const auto steps = g.lattice.steps();
     for (std::size_t s = 0; s < steps.size(); ++s) {
-        ahead[s] =
-            Frontier::place_of(std::uint32_t(steps[s].dy * g.lattice.extent().x + steps[s].dx), unsigned(s));
+        ahead[s] = Frontier::place_of(std::uint32_t(steps[s].dy * g.lattice.extent().x + steps[s].dx), unsigned(s));
         length5[s] = steps[s].length5;
     }
 }

@@ -77,9 +77,9 @@ class BlockedTrees {
     CandidateEdge candidate(const Lattice& lattice, int tile, const OpenEdge& open) const {
         const Offset o = tiling_.origin(tile);
         const NodeId u = lattice.at(o.dx + open.edge.node() % kWindow, o.dy + open.edge.node() / kWindow);
-        return {std::uint64_t{open.edge.height()} << 34 | std::uint64_t{index(u)} << 2 |
-                    std::uint64_t(open.edge.forward()),
-                first_tree_[std::size_t(tile)] + open.tree, other_tree(tile, open)};
+        return {
+            std::uint64_t{open.edge.height()} << 34 | std::uint64_t{index(u)} << 2 | std::uint64_t(open.edge.forward()),
+            first_tree_[std::size_t(tile)] + open.tree, other_tree(tile, open)};
     }
 
   private:
@@ -184,8 +184,8 @@ class ForestByTiles {
     }
 
     /// Unites the source trees of a block, counted from `first` on. One of them, if there are any.
-    std::optional<std::uint32_t> unite_sources(const BlockedTrees& trees, int block,
-                                               TreeJoiner<std::uint32_t>& joiner, std::uint32_t first) const {
+    std::optional<std::uint32_t> unite_sources(const BlockedTrees& trees, int block, TreeJoiner<std::uint32_t>& joiner,
+                                               std::uint32_t first) const {
         std::optional<std::uint32_t> source;
         trees.for_tiles(block, 0, [&](int tile) {
             const std::uint16_t in_tile = left_[std::size_t(tile)].source_tree;
