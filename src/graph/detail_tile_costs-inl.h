@@ -68,6 +68,11 @@ void load_row_above(const std::uint32_t* label, std::uint32_t base, Lane* row) {
     }
 }
 
+/// Highest edges, of which none is out of reach and none below the base, 0.
+inline void load_row_above(const std::uint16_t* label, std::uint32_t, std::uint16_t* row) {
+    std::copy_n(label, kWindow, row);
+}
+
 // A height or a cost is far where there is no edge.
 
 template <class Lane>

@@ -29,7 +29,7 @@ struct CandidateEdge {
     friend bool operator<(const CandidateEdge& x, const CandidateEdge& y) { return x.key < y.key; }
 };
 
-/// Tiles in blocks, and their trees, counted block by block.
+/// Tiles in blocks, and their trees, counted block by block. Each tile has one at least.
 class BlockedTrees {
   public:
     BlockedTrees(const Tiling& tiling, const std::vector<TileRemainder>& left)

@@ -6,6 +6,9 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <limits>
+#include <type_traits>
+
 #include "graph/detail_tile_costs-inl.h"
 #include "graph/detail_tile_forest_parents-inl.h"
 #include "graph/detail_tile_low_parents-inl.h"
@@ -17,19 +20,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
 
-template <class Lane>
+/// The labels that a rule is about.
+template <class Rule>
+auto* labels_of(const TileProblem& problem) {
+    if constexpr (std::is_same_v<HighestEdge, Rule>)
+        return problem.bottleneck.data();
+    else
+        return problem.sum.data();
+}
+
+template <class Rule, class Lane>
 void load_labels(const TileProblem& problem, int tile, std::uint32_t base, TileWindow<Lane>& window) {
     Lane* const label = window.label[0].data();
-    if constexpr (sizeof(Lane) == 2)
-        if (problem.rule == TileRule::bottleneck) {
-            WindowRows<std::uint16_t> rows(problem.graph.lattice, problem.tiling, tile, kFar<std::uint16_t>);
-            for (int y = 0; y < kWindow; ++y)
-                std::copy_n(rows(problem.bottleneck.data(), y), kWindow, label + y * kWindow);
-        }
-    if (problem.rule != TileRule::bottleneck) {
-        WindowRows<std::uint32_t> rows(problem.graph.lattice, problem.tiling, tile, ~std::uint32_t{0});
-        for (int y = 0; y < kWindow; ++y) load_row_above(rows(problem.sum.data(), y), base, label + y * kWindow);
-    }
+    const auto* const from = labels_of<Rule>(problem);
+    using Label = std::remove_cvref_t<decltype(*from)>;
+    WindowRows<Label> rows(problem.graph.lattice, problem.tiling, tile, std::numeric_limits<Label>::max());
+    for (int y = 0; y < kWindow; ++y) load_row_above(rows(from, y), base, label + y * kWindow);
     std::copy_n(label, kWindowNodes, window.before.data());
     transpose(label, window.label[1].data());
 }
@@ -74,7 +80,7 @@ void add_lanes(Pending& pending, const Lane* now, std::uint32_t base, std::uint6
 
 /// Writes back what fell and tells the tile that a node belongs to: rim nodes are the neighbours', and
 /// of the tile's own those wait for another visit whose edges end beyond what this one could see.
-template <class Lane>
+template <class Rule, class Lane>
 void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std::uint32_t base, std::uint64_t rows,
                 TileVisit& visit) {
     const Tiling& tiling = problem.tiling;
@@ -90,10 +96,7 @@ void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std:
         const std::uint64_t fell = lanes_below(now, before);
         if (fell == 0) continue;
         const std::ptrdiff_t begin = std::ptrdiff_t(origin.dy + y) * width + origin.dx;
-        if (problem.rule != TileRule::bottleneck)
-            store_row(now, before, base, fell, inside, problem.sum.data() + begin);
-        else if constexpr (sizeof(Lane) == 2)
-            store_row(now, before, base, fell, inside, problem.bottleneck.data() + begin);
+        store_row(now, before, base, fell, inside, labels_of<Rule>(problem) + begin);
         const int band = y < rim ? 0 : y < kWindow - rim ? 1 : 2;
         const std::uint64_t row = std::uint64_t{1} << (y + (1 - band) * side);
         Pending* const beside = &visit.after[std::size_t(3 * band)];
@@ -113,13 +116,13 @@ void visit_window(const TileProblem& problem, TileWindow<Lane>& window, TileVisi
     const std::uint32_t base = problem.rule == TileRule::bottleneck ? 0 : visit.job.least;
     const WeightedLattice& g = problem.graph;
     const bool even_only = problem.rule != TileRule::sum_within_bottleneck && problem.symmetric();
-    load_labels(problem, visit.tile, base, window);
+    load_labels<Rule>(problem, visit.tile, base, window);
     if constexpr (kByHalves<Rule>)
         load_half_costs<kSteps>(problem, visit.tile, window);
     else
         load_costs(problem, visit.tile, even_only, window);
     const std::uint64_t rows = settle<Rule, kSteps>(window, g, even_only, visit.job, visit.rows_relaxed);
-    write_back(problem, window, base, rows, visit);
+    write_back<Rule>(problem, window, base, rows, visit);
 }
 
 template <class Rule, class Lane>
