@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <utility>
 
 #include "graph/detail_forest_walk.h"
 #include "graph/detail_tile_grower.h"
@@ -245,7 +246,8 @@ std::optional<Plan> plan_spanning_forest(const PlanRequest& request, const std::
     if (g.lattice.neighbourhood() == Neighbourhood::square16 || !both_ways || largest_height > kLargestHeight)
         return {};
     if (g.lattice.node_count() > kMostWalkedNodes) return {};
-    return walk_forest(g, ForestByTiles(g, sources, work).grown(), sources, work);
+    Forest forest = ForestByTiles(g, sources, work).grown();
+    return walk_forest(g, std::move(forest), sources, work);
 }
 
 }  // namespace dstylize
