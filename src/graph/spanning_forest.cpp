@@ -5,8 +5,8 @@
 // the edges that leave a set of nodes the least is in the forest; the greatest edge of a ring is not):
 //   - Tiles. Each node's least edge is in the forest (all nodes at once, by vectors). What ends in one of the trees
 //     that these make is not, nor is the greatest edge of a triangle: half an edge a node is left. These are sorted
-//     and taken in order (detail_tree_joiner.h), and 0.1 edges a node stay open: some within the tile, as only who sees
-//     its surroundings can tell, and those between tiles.
+//     and taken in order (detail_tree_joiner.h), and 0.06 edges a node stay open: some within the tile, as only who
+//     sees its surroundings can tell, and those between tiles.
 //   - Blocks of tiles take what is open in the same way; then the whole lattice takes what is left.
 // Then a walk from the sources along the forest gives parents and labels.
 #include "graph/detail_spanning_forest.h"
@@ -111,14 +111,20 @@ class ForestByTiles {
     }
 
     Forest grown() && {
-        grow_tiles();
+        for_each(
+            tiling_.count(), [&] { return std::make_unique<TileGrower>(graph_, tiling_); },
+            [&](int tile, TileGrower& grower) {
+                left_[std::size_t(tile)] = grower.grow(tile, sources_of_[std::size_t(tile)], forest_);
+            });
         const BlockedTrees trees(tiling_, left_);
         // What blocks leave open, and to which tree each of a block's trees came to belong.
         std::vector<std::vector<CandidateEdge>> open(std::size_t(trees.count()));
         std::vector<std::uint32_t> tree(trees.tree_count());
-        for_each(trees.count(), [&](int block, BlockScratch& scratch) {
-            take_block(trees, block, scratch, open[std::size_t(block)], tree);
-        });
+        for_each(
+            trees.count(), [] { return std::make_unique<BlockScratch>(); },
+            [&](int block, BlockScratch& scratch) {
+                take_block(trees, block, scratch, open[std::size_t(block)], tree);
+            });
         take_rest(trees, open, tree);
         return std::move(forest_);
     }
@@ -130,26 +136,15 @@ class ForestByTiles {
         TreeJoiner<std::uint32_t> joiner;
     };
 
-    /// Calls body(index, scratch) for all indices below `count`, by several threads.
-    template <class Body>
-    void for_each(int count, const Body& body) {
+    /// Calls body(index, scratch) for all indices below `count`, by several threads, each with a scratch of its own.
+    template <class MakeScratch, class Body>
+    void for_each(int count, const MakeScratch& make_scratch, const Body& body) {
         std::atomic<int> next{0};
         run_workers(std::min(thread_count(work_), count), [&](int) {
-            BlockScratch scratch;
+            const auto scratch = make_scratch();
             for (int k; (k = next++) < count;) {
                 work_.check();
-                body(k, scratch);
-            }
-        });
-    }
-
-    void grow_tiles() {
-        std::atomic<int> next{0};
-        run_workers(std::min(thread_count(work_), tiling_.count()), [&](int) {
-            const auto grower = std::make_unique<TileGrower>(graph_, tiling_);
-            for (int tile; (tile = next++) < tiling_.count();) {
-                work_.check();
-                left_[std::size_t(tile)] = grower->grow(tile, sources_of_[std::size_t(tile)], forest_);
+                body(k, *scratch);
             }
         });
     }
