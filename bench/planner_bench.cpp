@@ -281,8 +281,11 @@ void write_map(const std::string& path, const std::string& kind, double mega) {
         file.write(reinterpret_cast<const char*>(&sum), sizeof sum);
     }
     if (!file.flush()) throw Error(ErrorCode::cannot_write, path + ".sums", "cannot be written", "");
-    fmt::print("{} {} {} {}\n", g.lattice.extent().x, g.lattice.extent().y, g.lattice.column(source),
-               g.lattice.row(source));
+    double tiles = 0, tiles_by_two = 0;
+    planned(tile_planner(), g, Metric::sum, 1, 3, tiles);
+    planned(tile_planner(), g, Metric::sum, 2, 3, tiles_by_two);
+    fmt::print("{} {} {} {} {} {}\n", g.lattice.extent().x, g.lattice.extent().y, g.lattice.column(source),
+               g.lattice.row(source), tiles, tiles_by_two);
 }
 
 int run(int argc, char** argv) {
@@ -293,7 +296,10 @@ int run(int argc, char** argv) {
     app.add_option("--only", only, "rows whose name has this in it");
     app.add_option("--json", json, "where the figures go, too");
     app.add_option("--growth", largest, "instead: how time grows, up to so many million nodes (100)")->expected(0, 1);
-    app.add_option("--write-map", map_file, "instead: writes the weights to a file; prints width, height, source");
+    app.add_option(
+        "--write-map", map_file,
+        "instead: writes the weights to a file and their sums to another; prints width, height, source, and\n"
+        "nanoseconds a node by one thread and by two");
     app.add_option("--map", kind, "which, for --write-map")
         ->check(CLI::IsMember({"portrait", "noise", "constant", "maze"}));
     CLI11_PARSE(app, argc, argv);

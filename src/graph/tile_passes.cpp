@@ -11,7 +11,7 @@
 
 #include "graph/detail_tile_costs-inl.h"
 #include "graph/detail_tile_forest_parents-inl.h"
-#include "graph/detail_tile_low_parents-inl.h"
+#include "graph/detail_tile_half_parents-inl.h"
 #include "graph/detail_tile_parents-inl.h"
 #include "graph/detail_tile_sift-inl.h"
 #include "graph/detail_tile_sweeps-inl.h"
@@ -154,27 +154,40 @@ void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& vis
     visit_lattice<AddCost>(problem, scratch.narrow, visit);
 }
 
-void find_parents(const ParentRequest& request, int first_row, int end_row, std::uint8_t* step) {
+/// For narrow costs; kBoth: halves of labels, else the low ones.
+template <bool kPlanes>
+void half_parents(const ParentRow& r, bool both, const HalfRows& halves, const StepOrder& order, std::uint8_t* out) {
+    if (r.bottleneck != nullptr) return half_parents_of_row<true, kPlanes, true>(r, halves, order, out);
+    both ? half_parents_of_row<false, kPlanes, true>(r, halves, order, out)
+         : half_parents_of_row<false, kPlanes, false>(r, halves, order, out);
+}
+
+template <bool kPlanes>
+void parents_of_rows(const ParentRequest& request, int first_row, int end_row, std::uint8_t* step) {
     const WeightedLattice& graph = request.graph;
     const Extent e = graph.lattice.extent();
     const StepOrder order(graph.lattice.steps());
-    const bool planes = !graph.height_plane.empty(), symmetric = !planes || graph.symmetric;
     const std::uint16_t* const bottleneck = request.bottleneck.empty() ? nullptr : request.bottleneck.data();
-    const bool by_low_bits = bottleneck == nullptr && symmetric && request.largest_step <= kLargestLowCost;
-    LowRows low(by_low_bits ? e.x : 0);
+    const bool by_halves = request.largest_step <= kLargestHalfCost;
+    const bool both = bottleneck != nullptr || (kPlanes && !graph.symmetric) || request.largest_step > kLargestLowCost;
+    HalfRows halves(by_halves ? e.x : 0, both);
     int loaded = std::max(0, first_row - kReach);
     for (int j = first_row; j < end_row; ++j) {
         const ParentRow row{graph, request.sum.data(), bottleneck, j};
         std::uint8_t* const out = step + std::size_t(j) * std::size_t(e.x);
-        if (by_low_bits) {
-            for (; loaded < std::min(e.y, j + kReach + 1); ++loaded) low.load(row.sum, loaded);
-            planes ? low_parents_of_row<true>(row, low, order, out) : low_parents_of_row<false>(row, low, order, out);
-        } else if (bottleneck != nullptr) {
-            planes ? parents_of_row<true, true>(row, order, out) : parents_of_row<true, false>(row, order, out);
+        if (by_halves) {
+            for (; loaded < std::min(e.y, j + kReach + 1); ++loaded) halves.load(row.sum, loaded);
+            half_parents<kPlanes>(row, both, halves, order, out);
         } else {
-            planes ? parents_of_row<false, true>(row, order, out) : parents_of_row<false, false>(row, order, out);
+            bottleneck != nullptr ? parents_of_row<true, kPlanes>(row, order, out)
+                                  : parents_of_row<false, kPlanes>(row, order, out);
         }
     }
+}
+
+void find_parents(const ParentRequest& request, int first_row, int end_row, std::uint8_t* step) {
+    request.graph.height_plane.empty() ? parents_of_rows<false>(request, first_row, end_row, step)
+                                       : parents_of_rows<true>(request, first_row, end_row, step);
 }
 
 std::uint16_t largest_value(const std::uint16_t* values, std::size_t count) {
