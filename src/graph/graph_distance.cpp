@@ -4,6 +4,8 @@
 // cost at most one edge more than the threshold, so that a bucket for each cost will do.
 #include "graph/graph_distance.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -14,6 +16,8 @@
 #include <limits>
 #include <optional>
 
+#include "graph/detail_workers.h"
+
 namespace dstylize {
 namespace {
 
@@ -22,6 +26,8 @@ constexpr std::uint32_t kLevels = 1023, kDearestEdge = 2 * kLevels;
 /// again and again, in narrower ones more wait.
 constexpr std::uint64_t kLeastSteps = 4, kWidestStep = 2 * kDearestEdge;
 constexpr std::size_t kNodesBetweenChecks = 1 << 16;
+/// A cell comes to new rows above and below, of which no processor guesses where they are: so many ahead.
+constexpr std::uint32_t kRowsAhead = 3;
 
 std::uint16_t node_cost(float expense) {
     if (!(expense > 0)) return 1;
@@ -94,8 +100,9 @@ class Queue {
     std::size_t size_ = 0;
 };
 
-/// The lattice has a rim of blocked nodes, so that no step needs a bounds check. A node is one word: its distance above
-/// its cost. Where nothing is to be lowered any more, outside the mask and where cells are done, distances are 0.
+/// The lattice has a rim of blocked nodes, so that no step needs a bounds check, and no look ahead. A node is one word:
+/// its distance above its cost. Where nothing is to be lowered any more, outside the mask and where cells are done,
+/// distances are 0.
 template <class Word>
 class Flood {
   public:
@@ -105,19 +112,25 @@ class Flood {
           stride_(std::uint32_t(extent_.x) + 2),
           threshold_(threshold(request)),
           step_(Word(std::min(threshold_ / kLeastSteps, kWidestStep))),
-          node_(std::size_t(stride_) * (std::size_t(extent_.y) + 2)) {
-        for (int j = 0; j < extent_.y; ++j)
-            for (int i = 0; i < extent_.x; ++i)
-                if (request.mask.empty() || request.mask(i, j) != 0)
-                    node_[at(i, j)] = kFar << kCostBits | node_cost(request.expense(i, j));
+          node_(std::size_t(stride_) * rows()) {
+        share_out(rows(), work, [&](std::size_t first, std::size_t end) {
+            for (std::size_t row = first; row < end; ++row) fill_row(request, row);
+        });
         for (const NodeId start : request.starts)
             start_at(at(int(index(start)) % extent_.x, int(index(start)) / extent_.x));
     }
 
     std::vector<NodeId> run() && {
         flood();
+        std::vector<std::uint8_t> has_more(std::size_t(extent_.y));
+        share_out(has_more.size(), work_, [&](std::size_t first, std::size_t end) {
+            for (std::size_t j = first; j < end; ++j) {
+                const auto row = node_.begin() + std::ptrdiff_t(at(0, int(j)));
+                has_more[j] = std::any_of(row, row + extent_.x, [](Word node) { return node >> kCostBits != 0; });
+            }
+        });
         for (int j = 0; j < extent_.y; ++j)
-            for (int i = 0; i < extent_.x; ++i)
+            for (int i = 0; has_more[std::size_t(j)] != 0 && i < extent_.x; ++i)
                 if (distance(at(i, j)) != 0) {
                     start_at(at(i, j));
                     flood();
@@ -135,9 +148,23 @@ class Flood {
     static constexpr Word kFar = std::numeric_limits<Word>::max() >> kCostBits;
     static constexpr Word kCost = (Word{1} << kCostBits) - 1;
 
-    std::uint32_t at(int i, int j) const { return std::uint32_t(j + 1) * stride_ + std::uint32_t(i + 1); }
+    std::size_t rows() const { return std::size_t(extent_.y) + 2 * kRowsAhead; }
+    std::uint32_t at(int i, int j) const { return (std::uint32_t(j) + kRowsAhead) * stride_ + std::uint32_t(i + 1); }
+    NodeId node_at(std::uint32_t n) const {
+        return NodeId{(n / stride_ - kRowsAhead) * std::uint32_t(extent_.x) + n % stride_ - 1};
+    }
     Word distance(std::uint32_t n) const { return node_[n] >> kCostBits; }
     void set_distance(std::uint32_t n, Word distance) { node_[n] = distance << kCostBits | (node_[n] & kCost); }
+
+    void fill_row(const GraphDistanceRequest& request, std::size_t row) {
+        Word* const node = &node_[row * stride_];
+        std::fill_n(node, stride_, Word{0});
+        if (row < kRowsAhead || row >= kRowsAhead + std::size_t(extent_.y)) return;
+        const int j = int(row - kRowsAhead);
+        for (int i = 0; i < extent_.x; ++i)
+            if (request.mask.empty() || request.mask(i, j) != 0)
+                node[i + 1] = kFar << kCostBits | node_cost(request.expense(i, j));
+    }
 
     void start_at(std::uint32_t n) {
         if (distance(n) == 0) return;
@@ -150,6 +177,8 @@ class Flood {
         near_.make_room(4);
         later_.make_room(4);
         const Word so_far = distance + (node_[n] & kCost);
+        hwy::Prefetch(&node_[n - kRowsAhead * stride_]);
+        hwy::Prefetch(&node_[n + kRowsAhead * stride_]);
         for (const std::uint32_t v : {n - stride_, n - 1, n + 1, n + stride_}) {
             const Word now = node_[v], cost = now & kCost, reached = so_far + cost;
             const bool nearer = reached < now >> kCostBits;
@@ -207,7 +236,7 @@ class Flood {
         grow_cell();
         const auto waits = [&](std::uint32_t over, std::uint32_t n) { return distance(n) == threshold_ + over; };
         while (const auto n = frontier_.pop(waits)) {
-            stipples_.push_back(NodeId{(*n / stride_ - 1) * std::uint32_t(extent_.x) + *n % stride_ - 1});
+            stipples_.push_back(node_at(*n));
             start_at(*n);
             grow_cell();
         }
@@ -218,7 +247,7 @@ class Flood {
     const std::uint32_t stride_;
     const std::uint64_t threshold_;
     const Word step_;
-    std::vector<Word> node_;
+    UnsetVector<Word> node_;
     Queue near_, later_;  // of the cell that grows
     Frontier frontier_;
     std::vector<NodeId> stipples_;
