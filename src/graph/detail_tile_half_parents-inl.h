@@ -78,8 +78,8 @@ void half_parents_of_row(const ParentRow& r, const HalfRows& halves, const StepO
             if constexpr (kBottleneck) {
                 const auto m_u = hn::LoadU(d, r.bottleneck + (v + by.from));
                 better = hn::And(better, hn::Eq(hn::Max(m_u, height), m_v));
-                const auto lower = hn::And(hn::Lt(m_u, best_m), hn::Ne(cost, hn::Zero(d)));
-                better = hn::And(better, hn::Or(lower, hn::And(hn::Eq(m_u, best_m), hn::Lt(best_cost, cost))));
+                better =
+                    hn::And(better, hn::Or(hn::Lt(m_u, best_m), hn::And(hn::Eq(m_u, best_m), hn::Lt(best_cost, cost))));
                 best_m = hn::IfThenElse(better, m_u, best_m);
             } else {
                 better = hn::And(better, hn::Lt(best_cost, cost));

@@ -146,6 +146,12 @@ TEST(TilePlanner, SeesStartLabelsAtTheEdgeOfA16BitWindow) {
         }
 }
 
+TEST(TilePlanner, TellsParentsApartWhoseSumsHaveTheSameLowHalf) {
+    RandomGraph g = weighted({100, 1}, Neighbourhood::square8, std::vector<NodeWeight>(100, 1));
+    g.sources = {{NodeId{50}, 65536, 0}, {NodeId{52}, 0, 1}};
+    with_every_instruction_set([&] { ASSERT_NO_FATAL_FAILURE(expect_three_metrics(g)); });
+}
+
 TEST(TilePlanner, LeavesSumsThatDoNotFit32BitsToAnother) {
     RandomGraph g = weighted({90, 3}, Neighbourhood::square8, std::vector<NodeWeight>(270, 255));
     for (const std::uint64_t start :
