@@ -47,13 +47,13 @@ std::vector<NodeWeight> maze(Dice& dice, Extent e, NodeWeight floor, NodeWeight 
 }
 
 std::vector<NodeWeight> random_weights(Dice& dice, Extent e) {
-    const std::uint32_t kind = dice.below(7);
+    const std::uint32_t kind = dice.below(9);
     if (kind == 0) return maze(dice, e, NodeWeight(dice.between(1, 255)), kImpassable);
     if (kind == 1) return maze(dice, e, NodeWeight(dice.between(1, 5)), 255);
     std::vector<NodeWeight> weight(e.count(), NodeWeight(dice.between(1, 255)));  // kind 2: all equal
-    const int levels = kind == 3 ? 2 : kind == 4 ? 4 : kind == 5 ? 255 : 65535;
+    constexpr int kLevels[] = {2, 4, 255, 4095, 32767, 65535};
     if (kind >= 3)
-        for (NodeWeight& w : weight) w = NodeWeight(dice.between(1, levels));
+        for (NodeWeight& w : weight) w = NodeWeight(dice.between(1, kLevels[kind - 3]));
     if (dice.one_in(3)) {
         const std::uint32_t percent = dice.below(60);
         for (NodeWeight& w : weight)
