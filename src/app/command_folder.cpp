@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "app/commands.h"
 #include "app/progress.h"
 #include "app/requests.h"
@@ -53,13 +55,16 @@ std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Argum
         batch,
         [&](const BatchProgress& now) {
             interrupt.set_writing(now.writing);
+            if (now.picture || now.finished == 0)
+                progress.begin(fmt::format("{} of {} pictures", now.finished, now.total),
+                               double(now.finished) / double(std::max<std::size_t>(1, now.total)));
             if (!now.picture) return;
-            progress.begin(fmt::format("{} of {} pictures", now.finished, now.total),
-                           double(now.finished) / double(now.total));
             if (now.picture->state == State::failed)
-                print_error({ErrorCode::failed, (batch.input / now.picture->input).string(), now.picture->problem,
-                             now.picture->remedy});
-            if (tell) tell(*now.picture);
+                progress.beside([&] {
+                    print_error({ErrorCode::failed, (batch.input / now.picture->input).string(), now.picture->problem,
+                                 now.picture->remedy});
+                });
+            if (tell) progress.beside([&] { tell(*now.picture); });
         },
         work);
     progress.finish();

@@ -55,21 +55,24 @@ double Progress::seconds() const { return std::chrono::duration<double>(finished
 
 void Progress::keep_drawing(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    bool drawn = false;
     wake_.wait_for(lock, stop, kSilentFor, [] { return false; });
     while (!stop.stop_requested()) {
         if (!steps_.empty()) {
             const double left = left_at_step_start_ - seconds_since(step_start_);
             std::fputs((kClearLine + progress_text(steps_.back().first, share_done_, left)).c_str(), stderr);
             std::fflush(stderr);
-            drawn = true;
+            is_drawn_ = true;
         }
         wake_.wait_for(lock, stop, kRedraw, [] { return false; });
     }
-    if (drawn) {
-        std::fputs(kClearLine, stderr);
-        std::fflush(stderr);
-    }
+    clear();
+}
+
+void Progress::clear() {
+    if (!is_drawn_) return;
+    std::fputs(kClearLine, stderr);
+    std::fflush(stderr);
+    is_drawn_ = false;
 }
 
 }  // namespace dstylize::app

@@ -136,8 +136,10 @@ class Batch {
         choose(manifest.pictures, {{request_.name, style.name, request_.each.seed, formats}, manifest.pictures});
         ledger_.emplace(request_.output, request_.shard);
         if (!request_.each.dry_run) {
+            make_folder(root_of(request_));
+            check_inside(root_of(request_), ledger_->file());
             make_folder(ledger_->file().parent_path());
-            check_inside(request_.output, ledger_->file());
+            if (!request_.shard) check_batch_reports(request_.output, request_.each.force);
             ledger_->take_over_shards();
         }
         draw_all();
@@ -161,8 +163,9 @@ class Batch {
         const std::size_t workers = std::max<std::size_t>(1, std::min({threads, most, report_.pictures.size()}));
         std::vector<std::size_t> all(report_.pictures.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+        tell(nullptr);
         draw(all, workers, int(std::max<std::size_t>(1, threads / workers)));
-        if (workers > 1) draw(std::exchange(postponed_, {}), 1, int(threads));
+        if (!postponed_.empty()) draw(std::exchange(postponed_, {}), 1, int(threads));
     }
 
     void draw(const std::vector<std::size_t>& pictures, std::size_t workers, int threads) {
@@ -202,7 +205,8 @@ class Batch {
                 postponed_.push_back(index);
                 return;
             }
-            picture.problem = error.problem();
+            const bool is_of_input = error.file().empty() || error.file() == request_.input / picture.input;
+            picture.problem = is_of_input ? error.problem() : fmt::format("{}: {}", error.file(), error.problem());
             picture.remedy = error.remedy();
         } catch (const std::bad_alloc&) {
             picture.problem = "out of memory";
@@ -223,16 +227,17 @@ class Batch {
         const std::string hash = content_hash(read_file(run_request.input, request_.each.max_memory_bytes));
         std::vector<std::size_t> stale;
         for (std::size_t r = 0; r < picture.results.size(); ++r)
-            if (!is_up_to_date(picture.results[r], {hash, keys_[r], 0}, run_request.force)) stale.push_back(r);
+            if (!is_up_to_date(picture.results[r], hash, keys_[r])) stale.push_back(r);
         if (stale.empty()) return State::up_to_date;
         if (request_.each.dry_run) return State::done;
         for (const std::size_t r : stale) {
             const fs::path target = request_.output / picture.results[r];
             check_inside(request_.output, target);
             make_folder(target.parent_path());
-            if (!ledger_->find(picture.results[r])) check_target(target, {}, request_.each.force);
+            check_target(target, {}, request_.each.force || is_as_made(picture.results[r]));
             run_request.outputs.push_back(target);
         }
+        run_request.force = true;
         run_request.thumbnail_px = kThumbnail_px;
         const RunReport made_now = run_one(run_request, threads, codec);
         write_thumbnail(thumbnail_before(picture), made_now.small_input, codec);
@@ -242,15 +247,17 @@ class Batch {
         return State::done;
     }
 
-    /// What we made but is stale or damaged, we may replace: `force`.
-    bool is_up_to_date(const std::string& result, Ledger::Entry entry, bool& force) const {
+    /// Judged by its size: if it is still what we made, we may replace it, with our mark in it or without.
+    bool is_as_made(const std::string& result) const {
         const Ledger::Entry* const made = ledger_->find(result);
-        if (!made) return false;
         std::error_code missing;
-        entry.bytes = fs::file_size(request_.output / result, missing);
-        if (!missing && *made == entry) return true;
-        force = true;
-        return false;
+        const std::uintmax_t bytes = fs::file_size(request_.output / result, missing);
+        return made && !missing && made->bytes == bytes;
+    }
+
+    bool is_up_to_date(const std::string& result, const std::string& hash, const std::string& key) const {
+        const Ledger::Entry* const made = ledger_->find(result);
+        return made && made->input_xxh128 == hash && made->key == key && is_as_made(result);
     }
 
     void write_thumbnail(const fs::path& relative, const Picture& small, PictureCodec& codec) const {

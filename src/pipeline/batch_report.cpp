@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "formats/files.h"
+#include "pipeline/content_hash.h"
 #include "pipeline/outputs.h"
+#include "pipeline/path_json.h"
 #include "pipeline/version.h"
 
 namespace dstylize {
@@ -15,6 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using State = BatchPicture::State;
 using nlohmann::ordered_json;
+
+constexpr const char *kReport = "report.json", *kSheet = "index.html";
 
 std::string_view state_name(State state) {
     return state == State::done ? "done" : state == State::up_to_date ? "up to date" : "failed";
@@ -44,6 +49,7 @@ std::string url(const fs::path& path) {
 }
 
 constexpr std::string_view kHead = R"(<!doctype html>
+<html lang="en">
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>dstylize: contact sheet</title>
@@ -59,11 +65,22 @@ figcaption { margin-top: .5rem; overflow-wrap: anywhere; }
 </style>
 )";
 
-std::string image(const std::string& to, const std::string& of, std::string_view what) {
-    return fmt::format("<a href=\"{}\"><img loading=\"lazy\" alt=\"{}\" src=\"{}\"></a>", to, what, of);
+/// A thumbnail that leads to its picture, which stands in for it where it is missing.
+std::string image(const std::string& picture, const fs::path& output, const fs::path& thumbnail,
+                  const std::string& what) {
+    std::error_code ignored;
+    return fmt::format("<a href=\"{}\"><img loading=\"lazy\" alt=\"{}\" src=\"{}\"></a>", picture, escaped(what),
+                       fs::exists(output / thumbnail, ignored) ? url(thumbnail) : picture);
 }
 
-std::string figure(const BatchPicture& picture, const fs::path& to_input) {
+/// The first result that a browser shows, if there is one.
+const std::string& shown_result(const BatchPicture& picture) {
+    for (const std::string& result : picture.results)
+        if (!result.ends_with(".json")) return result;
+    return picture.results.front();
+}
+
+std::string figure(const BatchPicture& picture, const fs::path& to_input, const fs::path& output) {
     const std::string original = url(to_input / picture.input);
     if (picture.state == State::failed)
         return fmt::format(
@@ -75,8 +92,8 @@ std::string figure(const BatchPicture& picture, const fs::path& to_input) {
         for (const std::string& result : picture.results)
             caption +=
                 fmt::format(" <a href=\"{}\">{}</a>", url(result), escaped(fs::path(result).extension().string()));
-    return "<figure><div>" + image(original, url(thumbnail_before(picture)), "before") +
-           image(url(picture.results.front()), url(thumbnail_after(picture)), "after") +
+    return "<figure><div>" + image(original, output, thumbnail_before(picture), picture.input + ", before") +
+           image(url(shown_result(picture)), output, thumbnail_after(picture), picture.input + ", after") +
            fmt::format("</div><figcaption>{}</figcaption></figure>\n", caption);
 }
 
@@ -88,7 +105,10 @@ ordered_json json_of(const BatchReport& report) {
         tree[std::string(state_name(state))] = report.count(state);
     tree["pictures"] = ordered_json::array();
     for (const BatchPicture& picture : report.pictures) {
-        ordered_json row{{"input", picture.input}, {"results", picture.results}, {"state", state_name(picture.state)}};
+        ordered_json row{{"input", path_json<ordered_json>(picture.input)},
+                         {"results", ordered_json::array()},
+                         {"state", state_name(picture.state)}};
+        for (const std::string& result : picture.results) row["results"].push_back(path_json<ordered_json>(result));
         if (picture.state == State::failed) {
             row["problem"] = picture.problem;
             row["remedy"] = picture.remedy;
@@ -98,19 +118,30 @@ ordered_json json_of(const BatchReport& report) {
     return tree;
 }
 
-/// File names need not be UTF-8.
+/// Messages may name files, and names need not be UTF-8.
 std::string json_text(const ordered_json& tree) {
     return tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
 
-fs::path thumbnail_before(const BatchPicture& picture) {
-    return fs::path(".dstylize/thumbnails") / (picture.results.front() + ".before.jpg");
+namespace {
+
+/// Named after the results, whatever their formats; where that would be too long for a file's name, by its hash.
+fs::path thumbnail(const BatchPicture& picture, std::string_view which) {
+    constexpr std::size_t kLongest = 240;
+    fs::path name = picture.results.front();
+    name.replace_extension();
+    const std::string last = name.filename().string();
+    if (last.size() > kLongest) name.replace_filename(content_hash(std::as_bytes(std::span(last))));
+    name += fmt::format(".{}.jpg", which);
+    return fs::path(".dstylize/thumbnails") / name;
 }
-fs::path thumbnail_after(const BatchPicture& picture) {
-    return fs::path(".dstylize/thumbnails") / (picture.results.front() + ".after.jpg");
-}
+
+}  // namespace
+
+fs::path thumbnail_before(const BatchPicture& picture) { return thumbnail(picture, "before"); }
+fs::path thumbnail_after(const BatchPicture& picture) { return thumbnail(picture, "after"); }
 
 std::string batch_report_json(const BatchReport& report) { return json_text(json_of(report)); }
 
@@ -128,8 +159,15 @@ std::string contact_sheet_html(const BatchReport& report, const fs::path& input,
                        report.count(State::done), report.count(State::up_to_date), report.count(State::failed));
     for (const bool failed : {true, false})
         for (const BatchPicture& picture : report.pictures)
-            if ((picture.state == State::failed) == failed) out += figure(picture, to_input);
+            if ((picture.state == State::failed) == failed) out += figure(picture, to_input, output);
     return out + "</section>\n";
+}
+
+void check_batch_reports(const fs::path& output, bool force) {
+    for (const char* const name : {kReport, kSheet}) {
+        check_inside(output, output / name);
+        check_target(output / name, {}, force);
+    }
 }
 
 void write_batch_reports(const BatchReport& report, const fs::path& input, const fs::path& output) {
@@ -137,8 +175,8 @@ void write_batch_reports(const BatchReport& report, const fs::path& input, const
         check_inside(output, output / name);
         write_file_atomically(output / name, std::as_bytes(std::span(text)));
     };
-    write("report.json", batch_report_json(report));
-    write("index.html", contact_sheet_html(report, input, output));
+    write(kReport, batch_report_json(report));
+    write(kSheet, contact_sheet_html(report, input, output));
 }
 
 }  // namespace dstylize

@@ -20,6 +20,10 @@ std::string batch_report_json(std::span<const BatchReport> reports);
 std::string contact_sheet_html(const BatchReport& report, const std::filesystem::path& input,
                                const std::filesystem::path& output);
 
+/// Whether write_batch_reports() may write there: no link leads it elsewhere, and no file of others is in its place,
+/// unless `force` is given. Throws Error(cannot_write), Error(bad_usage).
+void check_batch_reports(const std::filesystem::path& output, bool force);
+
 /// Both as report.json and index.html in the output folder. Throws Error(cannot_write).
 void write_batch_reports(const BatchReport& report, const std::filesystem::path& input,
                          const std::filesystem::path& output);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "formats/files.h"
+#include "pipeline/path_json.h"
 
 namespace dstylize {
 namespace {
@@ -14,8 +15,11 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::string line(const std::string& result, const Ledger::Entry& entry) {
-    return json{{"result", result}, {"input", entry.input_xxh128}, {"key", entry.key}, {"bytes", entry.bytes}}.dump(
-               -1, ' ', false, json::error_handler_t::replace) +
+    return json{{"result", path_json<json>(result)},
+                {"input", entry.input_xxh128},
+                {"key", entry.key},
+                {"bytes", entry.bytes}}
+               .dump() +
            "\n";
 }
 
@@ -46,7 +50,7 @@ void Ledger::read(const fs::path& path, Entries& entries) {
         const json tree = json::parse(text, nullptr, false);
         if (!tree.is_object()) continue;
         try {
-            entries[tree.at("result")] = {tree.at("input"), tree.at("key"), tree.at("bytes")};
+            entries[path_from_json(tree.at("result"))] = {tree.at("input"), tree.at("key"), tree.at("bytes")};
         } catch (const json::exception&) {
             continue;
         }

@@ -10,6 +10,8 @@
 #include "formats/files.h"
 #include "pipeline/batch_report.h"
 #include "pipeline/ledger.h"
+#include "pipeline/outputs.h"
+#include "pipeline/path_json.h"
 
 namespace dstylize {
 namespace {
@@ -40,7 +42,8 @@ int count_of_shards(const fs::path& output) {
 }
 
 BatchPicture picture_of(const ordered_json& row) {
-    BatchPicture picture{row.at("input"), row.at("results"), State::failed, {}, {}};
+    BatchPicture picture{path_from_json(row.at("input")), {}, State::failed, {}, {}};
+    for (const ordered_json& result : row.at("results")) picture.results.push_back(path_from_json(result));
     if (picture.results.empty()) throw std::invalid_argument("no results");
     const std::string state = row.at("state");
     if (state == "failed") {
@@ -69,7 +72,7 @@ ShardReport read_report(const fs::path& file, Shard shard) {
         out.report.all = run.at("pictures");
         out.report.key = run.at("key");
         out.report.manifest_xxh128 = run.at("manifest");
-        out.input = std::string(run.at("input"));
+        out.input = path_from_json(run.at("input"));
         if (out.report.pictures.size() == shard_entries(shard, out.report.all).size()) return out;
     } catch (const std::exception&) {
         // Said below.
@@ -83,6 +86,8 @@ std::string listed(const std::vector<int>& shards) { return fmt::format("{}", fm
 
 void remove_shard_report(const fs::path& output, Shard shard) {
     std::error_code ignored;
+    if (!fs::exists(output, ignored)) return;
+    check_inside(output, shard_report(output, shard));
     fs::remove(shard_report(output, shard), ignored);
 }
 
@@ -90,8 +95,10 @@ void write_shard_report(const BatchReport& report, const fs::path& input, const 
     ordered_json tree = ordered_json::parse(batch_report_json(report));
     const fs::path from = fs::proximate(fs::absolute(input), fs::absolute(output));
     tree["run"] = {
-        {"pictures", report.all}, {"key", report.key}, {"manifest", report.manifest_xxh128}, {"input", from.string()}};
+        {"pictures", report.all}, {"key", report.key}, {"manifest", report.manifest_xxh128},
+        {"input", path_json<ordered_json>(from.string())}};
     const std::string text = tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    check_inside(output, shard_report(output, shard));
     write_file_atomically(shard_report(output, shard), std::as_bytes(std::span(text)));
 }
 
@@ -121,7 +128,10 @@ BatchReport merge_shards(const fs::path& output) {
         for (std::size_t e = 0; e < entries.size(); ++e) pictures[entries[e]] = std::move(part.report.pictures[e]);
     }
     whole.report.pictures = std::move(pictures);
-    Ledger(output, std::nullopt).compact();
+    check_batch_reports(output, false);
+    Ledger ledger(output, std::nullopt);
+    check_inside(output, ledger.file());
+    ledger.compact();
     write_batch_reports(whole.report, output / whole.input, output);
     return std::move(whole.report);
 }

@@ -305,6 +305,9 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
         v.text({"extends", "", ""}, extends);
         v.text({"metaphor", "", ""}, style.metaphor_name);
     });
+    if (style.name.find('/') != std::string::npos || style.name.starts_with('.'))
+        top.fail(tree.at_path("style.name").node(), "style.name = \"" + style.name + "\" can be no folder's name",
+                 "leave out slashes, and dots at its beginning");
     if (style.metaphor_name.empty())
         top.fail(tree.get("style"), "the style names no metaphor", "add style.metaphor = \"ink\"");
     style.metaphor = make_metaphor(style.metaphor_name);

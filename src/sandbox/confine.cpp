@@ -44,9 +44,8 @@ constexpr int kFree[] = {
     SCMP_SYS(fallocate), SCMP_SYS(membarrier),
     // what is open already
     SCMP_SYS(read), SCMP_SYS(readv), SCMP_SYS(pread64), SCMP_SYS(write), SCMP_SYS(writev), SCMP_SYS(pwrite64),
-    SCMP_SYS(lseek), SCMP_SYS(_llseek), SCMP_SYS(close), SCMP_SYS(dup), SCMP_SYS(fcntl), SCMP_SYS(fcntl64),
-    SCMP_SYS(fstat), SCMP_SYS(fstat64), SCMP_SYS(fsync), SCMP_SYS(sendmsg), SCMP_SYS(recvmsg), SCMP_SYS(poll),
-    SCMP_SYS(ppoll),
+    SCMP_SYS(lseek), SCMP_SYS(_llseek), SCMP_SYS(close), SCMP_SYS(dup), SCMP_SYS(fstat), SCMP_SYS(fstat64),
+    SCMP_SYS(fsync), SCMP_SYS(sendmsg), SCMP_SYS(recvmsg), SCMP_SYS(poll), SCMP_SYS(ppoll),
     // a way from this process to itself, by which UndefinedBehaviorSanitizer asks what memory is readable
     SCMP_SYS(pipe), SCMP_SYS(pipe2),
     // looking at names
@@ -68,6 +67,10 @@ bool add_rules_with_arguments(scmp_filter_ctx filter) {
     const auto allow = [&](int call, const scmp_arg_cmp& condition) {
         return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, condition) == 0;
     };
+    // Not F_SETOWN and F_SETSIG, by which a descriptor would send any signal to anybody.
+    for (const int command : {F_DUPFD, F_DUPFD_CLOEXEC, F_GETFD, F_SETFD, F_GETFL, F_SETFL, F_ADD_SEALS, F_GET_SEALS})
+        for (const int call : {SCMP_SYS(fcntl), SCMP_SYS(fcntl64)})
+            if (!allow(call, SCMP_A1(SCMP_CMP_EQ, scmp_datum_t(command)))) return false;
     return allow(SCMP_SYS(open), SCMP_A1(SCMP_CMP_MASKED_EQ, kWriting, 0)) &&
            allow(SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, kWriting, 0)) &&
            allow(SCMP_SYS(mmap), SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)) &&

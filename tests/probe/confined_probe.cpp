@@ -71,6 +71,17 @@ int opened_again() {
     return error_of(open(("/proc/self/fd/" + std::to_string(memory)).c_str(), O_RDONLY));
 }
 
+/// A pipe that would send its owner a signal when something can be read.
+int pipe_owned_by_parent() {
+    int ends[2];
+    return pipe(ends) < 0 ? errno : error_of(fcntl(ends[0], F_SETOWN, getppid()));
+}
+
+int pipe_with_a_signal() {
+    int ends[2];
+    return pipe(ends) < 0 ? errno : error_of(fcntl(ends[0], F_SETSIG, SIGCONT));
+}
+
 int thread_started() {
     bool ran = false;
     std::thread([&] { ran = true; }).join();
@@ -98,6 +109,8 @@ const std::map<std::string, std::function<int()>> kAttempts{
     {"program", executed},
     {"shell", [] { return system("true") == 0 ? 0 : errno; }},
     {"signal_parent", [] { return error_of(kill(getppid(), SIGCONT)); }},
+    {"signal_by_pipe", pipe_owned_by_parent},
+    {"signal_of_choice", pipe_with_a_signal},
     {"limit", limit_raised},
     {"code", code_made},
     {"much_memory", [] { return memory_of(kLimit_bytes + (std::uint64_t(1) << 30)); }},

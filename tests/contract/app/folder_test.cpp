@@ -29,7 +29,7 @@ TEST_F(FolderTest, IsMirroredWithAReportAndAContactSheet) {
     EXPECT_NE(page.find("href=\"../photos/sea/deep/c%20d%26.png\""), std::string::npos);
     EXPECT_NE(page.find("href=\"sea/deep/c%20d%26.png\""), std::string::npos);
     for (const char* when : {"before", "after"}) {
-        const std::string small = std::string(".dstylize/thumbnails/a.png.") + when + ".jpg";
+        const std::string small = std::string(".dstylize/thumbnails/a.") + when + ".jpg";
         EXPECT_NE(page.find("src=\"" + small + "\""), std::string::npos);
         EXPECT_EQ(read_picture(folder_ / "out" / small).picture.extent(), kSize);
     }
@@ -55,8 +55,8 @@ TEST_F(FolderTest, IsDrawnOnceAndAgainOnlyWhereSomethingChanged) {
     EXPECT_EQ(states()["a.png"], "up to date");
     EXPECT_EQ(fs::last_write_time(folder_ / "out/a.png"), drawn_at);
 
-    write_png(folder_ / "photos/a.png", scene({80, 60}));                    // another picture
-    std::ofstream(folder_ / "out/sea/b.png", std::ios::trunc) << "damaged";  // another result
+    write_png(folder_ / "photos/a.png", scene({80, 60}));           // another picture
+    fs::resize_file(folder_ / "out/sea/b.png", before.size() / 2);  // half a result
     expect_done(draw_all());
     EXPECT_EQ(states()["a.png"], "done");
     EXPECT_EQ(states()["sea/b.png"], "done");
@@ -209,6 +209,58 @@ TEST_F(FolderTest, SaysInADryRunWhatItWouldDoAndDoesNothing) {
     expect_done(outcome);
     EXPECT_NE(outcome.out.find("to be drawn       3"), std::string::npos) << outcome.out;
     EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(FolderTest, LeavesADrawingThatWasRetouched) {
+    expect_done(draw_all());
+    write_png(folder_ / "out/a.png", scene({30, 20}));
+    const std::string retouched = file_bytes(folder_ / "out/a.png");
+    const Outcome outcome = draw_all();
+    EXPECT_EQ(outcome.exit_code, 5);
+    EXPECT_TRUE(outcome.err.starts_with("dstylize: photos/a.png: out/a.png: exists and was not made")) << outcome.err;
+    EXPECT_TRUE(file_bytes(folder_ / "out/a.png") == retouched);
+    expect_done(draw_all({"--force"}));
+    EXPECT_FALSE(file_bytes(folder_ / "out/a.png") == retouched);
+}
+
+TEST_F(FolderTest, LeavesPagesAndReportsOfOthers) {
+    for (const std::string name : {"index.html", "report.json"}) {
+        fs::remove_all(folder_ / "out");
+        fs::create_directory(folder_ / "out");
+        write_file(folder_ / ("out/" + name), std::string_view("precious"));
+        expect_error(draw_all(), 4, {"out/" + name, "was not made by dstylize"});
+        EXPECT_EQ(file_bytes(folder_ / ("out/" + name)), "precious");
+        EXPECT_FALSE(fs::exists(folder_ / "out/a.png")) << "told before anything is drawn";
+        expect_done(draw_all({"--force"}));
+    }
+}
+
+TEST_F(FolderTest, KeepsThumbnailsWhateverTheFormats) {
+    fs::rename(folder_ / "photos/a.png", folder_ / ("photos/" + std::string(246, 'n') + ".png"));
+    expect_done(draw_all({"--format", "png", "--format", "jpg"}));
+    expect_done(draw_all({"--format", "jpg"}));
+    const auto missing = [&] {
+        const std::string page = file_bytes(folder_ / "out/index.html");
+        int count = 0;
+        for (std::size_t at = 0; (at = page.find("src=\"", at)) != std::string::npos;) {
+            at += 5;
+            const std::string name = page.substr(at, page.find('"', at) - at);
+            count += name.find('%') == std::string::npos && !fs::exists(folder_ / "out" / name);
+        }
+        return count;
+    };
+    EXPECT_EQ(missing(), 0);
+    fs::remove_all(folder_ / "out/.dstylize/thumbnails");
+    expect_done(draw_all({"--format", "jpg"}));
+    EXPECT_EQ(missing(), 0) << "the pictures themselves stand in";
+}
+
+TEST_F(FolderTest, NoStylesNameLeadsOutOfTheFolderOfTheDrawings) {
+    for (const std::string name : {"../evil", "/tmp/evil", "..", ".dstylize"}) {
+        write_file(folder_ / "own.toml", "[style]\nname = \"" + name + "\"\nextends = \"ink\"\n");
+        expect_error(draw({"photos", "out", "--style", "./own.toml", "--style", "ink"}), 2, {"own.toml", name});
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "evil"));
 }
 
 TEST_F(FolderTest, ReplacesNothingThatItDidNotMake) {

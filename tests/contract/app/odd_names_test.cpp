@@ -39,10 +39,22 @@ TEST_F(OddNames, StayInTheFolderOfTheDrawings) {
     EXPECT_EQ(folder_.names(), after);
 }
 
+TEST_F(OddNames, ThatAreNoUtf8AreNotDrawnTwiceAndMerged) {
+    write_png(folder_ / "photos/caf\xe9.png", scene({20, 20}));
+    expect_done(draw({"photos", "out"}));
+    const auto drawn_at = fs::last_write_time(folder_ / "out/caf\xe9.png");
+    expect_done(draw({"photos", "out"}));
+    EXPECT_EQ(fs::last_write_time(folder_ / "out/caf\xe9.png"), drawn_at);
+    expect_done(draw({"photos", "out", "--manifest", "list", "--shard", "1/1"}));
+    expect_done(run({"merge-reports", "out"}));
+    const std::string page = file_bytes(folder_ / "out/index.html");
+    EXPECT_NE(page.find("href=\"caf%E9.png\""), std::string::npos) << page;
+}
+
 TEST_F(OddNames, NoLinkTakesReportsOrThumbnailsElsewhere) {
     write_png(folder_ / "photos/a.png", scene({20, 20}));
     for (const std::string link :
-         {"report.json", "index.html", ".dstylize/ledger.jsonl", ".dstylize/thumbnails/a.png.before.jpg"}) {
+         {"report.json", "index.html", ".dstylize/ledger.jsonl", ".dstylize/thumbnails/a.before.jpg"}) {
         SCOPED_TRACE(link);
         fs::remove_all(folder_ / "out");
         write_file(folder_ / "precious", "precious");

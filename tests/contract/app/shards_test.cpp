@@ -107,6 +107,30 @@ TEST_F(ShardsTest, AreTakenOverFromNoOtherFolder) {
     EXPECT_FALSE(fs::exists(folder_ / "elsewhere/slurm"));
 }
 
+TEST_F(ShardsTest, TouchNothingBehindALink) {
+    fs::create_directories(folder_ / "elsewhere/2");
+    fs::create_directories(folder_ / "out/.dstylize");
+    write_file(folder_ / "elsewhere/2/1.json", std::string_view("precious"));
+    fs::create_directory_symlink("../../elsewhere", folder_ / "out/.dstylize/shards");
+    expect_error(draw_shard("1/2"), 4, {"a link leads out"});
+    EXPECT_EQ(file_bytes(folder_ / "elsewhere/2/1.json"), "precious");
+
+    fs::remove(folder_ / "out/.dstylize/shards");
+    fs::remove(folder_ / "out/.dstylize");
+    fs::create_directory(folder_ / "nothing");
+    fs::create_directory_symlink("../nothing", folder_ / "out/.dstylize");
+    expect_error(draw_shard("1/2"), 4, {"a link leads out"});
+    EXPECT_TRUE(fs::is_empty(folder_ / "nothing"));
+
+    fs::remove(folder_ / "out/.dstylize");
+    draw_shard("1/1");
+    fs::rename(folder_ / "out/.dstylize", folder_ / "moved");
+    fs::create_directory_symlink("../moved", folder_ / "out/.dstylize");
+    fs::remove(folder_ / "moved/ledger.jsonl");
+    expect_error(run({"merge-reports", "out"}), 4, {"a link leads out"});
+    EXPECT_FALSE(fs::exists(folder_ / "moved/ledger.jsonl"));
+}
+
 TEST_F(ShardsTest, RefuseWrongUsageAndManifestsThatAreNotWhole) {
     expect_error(draw({"photos", "out", "--shard", "1/2"}), 2, {"--shard 1/2", "--manifest"});
     for (const char* shard : {"0/2", "3/2", "1", "1/0", "a/b", "1/2x"})
