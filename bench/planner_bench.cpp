@@ -31,9 +31,9 @@ struct Disagreement : std::runtime_error {
 
 enum class Edges { weights8, planes8, planes16, falling16, irregular };
 
-/// Ratios that are to be reached: time of a peer to that of tiles with one thread and with two. 0: none.
 constexpr float kStipplingThreshold = 10;
 
+/// Ratios that are to be reached: time of a peer to that of tiles with one thread and with two. 0: none.
 struct Bars {
     double heap = 0, heap_by_two = 0, boost = 0, boost_by_two = 0, two_threads = 0;
 };
@@ -205,6 +205,7 @@ class Report {
         file << json_.dump(2) << '\n';
         if (!file.flush()) throw Error(ErrorCode::cannot_write, path, "cannot be written", "");
     }
+    bool is_empty() const { return json_["rows"].empty(); }
     bool ok() const { return ok_; }
 
   private:
@@ -253,6 +254,7 @@ bool compare(double mega, const std::string& only, const std::string& json) {
         const Times times = measured_stippling(mega, stipples);
         report.add({"portrait", {}, {}, {3.3, 4.5}}, "stippling", fmt::format("{} points", stipples), times);
     }
+    if (report.is_empty()) throw Error(ErrorCode::bad_usage, "--only " + only, "is in no row's name", "leave it out");
     report.write(json);
     return report.ok();
 }

@@ -15,7 +15,7 @@ namespace dstylize {
 
 inline constexpr std::uint16_t kNoTree = 0xffff;
 
-/// An edge that only the whole lattice can decide on, between trees of a tile.
+/// An edge that no tile can decide on alone, between trees of a tile.
 struct OpenEdge {
     TileEdge edge;
     std::uint16_t tree, other;  // other is kNoTree where it lies in another tile

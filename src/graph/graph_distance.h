@@ -27,8 +27,8 @@ struct GraphDistanceRequest {
 /// search over the 4-connected lattice, cheapest frontier node first, then smallest index, each node
 /// expanded once; when the cheapest costs more than the threshold it becomes a stipple and its cost 0.
 /// A part of the mask that no start lies in starts from its first node, which becomes no stipple.
-/// O(n) but for heaps of the frontier's nodes of one cost; 4 bytes a node. Only what goes before and after the search
-/// has several threads. Throws Error(cancelled).
+/// O(n) but for heaps of the frontier's nodes of one cost; 4 bytes a node, 8 where costs do not fit 22 bits. Only what
+/// goes before and after the search has several threads. Throws Error(cancelled).
 std::vector<NodeId> graph_distance_stipples(const GraphDistanceRequest& request, const Work& work);
 
 }  // namespace dstylize

@@ -1,8 +1,11 @@
 #include "pipeline/ledger.h"
 
+#include <algorithm>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string_view>
 
 #include "core/error.h"
 #include "formats/files.h"
@@ -43,11 +46,10 @@ Ledger::Ledger(const fs::path& output_folder, std::optional<Shard> shard)
 void Ledger::read(const fs::path& path, Entries& entries) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) return;
-    std::ifstream file(path);
-    if (!file) throw Error(ErrorCode::cannot_read, path.string(), "cannot be read", "check its permissions");
-    file.exceptions(std::ios::badbit);  // or what no memory is left for would end the list
-    for (std::string text; std::getline(file, text);) {
-        const json tree = json::parse(text, nullptr, false);
+    const std::vector<std::byte> bytes = read_file(path, std::numeric_limits<std::uint64_t>::max());
+    std::string_view lines(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (; !lines.empty(); lines.remove_prefix(std::min(lines.find('\n'), lines.size() - 1) + 1)) {
+        const json tree = json::parse(lines.substr(0, lines.find('\n')), nullptr, false);
         if (!tree.is_object()) continue;
         try {
             entries[path_from_json(tree.at("result"))] = {tree.at("input"), tree.at("key"), tree.at("bytes")};

@@ -92,6 +92,9 @@ class Run {
     }
 
     void plan_outputs() {
+        std::error_code ignored;
+        if (!request_.input.empty() && request_.input != "-" && !fs::exists(request_.input, ignored))
+            throw Error(ErrorCode::cannot_read, name_of(request_.input), "no such file", "check its name");
         const std::vector<fs::path> inputs{request_.input,          request_.importance.path, request_.mask.path,
                                            request_.endpoints.path, request_.background.file, request_.style};
         outputs_ = planned_outputs(request_.outputs, request_.format, inputs, request_.force);

@@ -30,7 +30,9 @@ int count_of_shards(const fs::path& output) {
     std::vector<fs::path> runs;
     std::error_code ignored;
     for (fs::directory_iterator at(shards, ignored), end; at != end; at.increment(ignored)) runs.push_back(at->path());
-    if (runs.empty()) refuse(output, "has no reports of shards", "run them with --shard K/N");
+    if (runs.empty())
+        refuse(output, "has no reports of shards",
+               "run them with --shard K/N; of several styles, name the folder of each");
     if (runs.size() > 1)
         refuse(shards, "has reports of runs with different numbers of shards",
                "remove the folders of those that are over");
@@ -94,9 +96,10 @@ void remove_shard_report(const fs::path& output, Shard shard) {
 void write_shard_report(const BatchReport& report, const fs::path& input, const fs::path& output, Shard shard) {
     ordered_json tree = ordered_json::parse(batch_report_json(report));
     const fs::path from = fs::proximate(fs::absolute(input), fs::absolute(output));
-    tree["run"] = {
-        {"pictures", report.all}, {"key", report.key}, {"manifest", report.manifest_xxh128},
-        {"input", path_json<ordered_json>(from.string())}};
+    tree["run"] = {{"pictures", report.all},
+                   {"key", report.key},
+                   {"manifest", report.manifest_xxh128},
+                   {"input", path_json<ordered_json>(from.string())}};
     const std::string text = tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
     check_inside(output, shard_report(output, shard));
     write_file_atomically(shard_report(output, shard), std::as_bytes(std::span(text)));

@@ -1,7 +1,8 @@
-// Preloaded into dstylize: one call that changes files, or one allocation, fails or is the last. By the environment:
+// Preloaded into dstylize: one call that changes files, one that reads them, or one allocation, fails or is the last.
+// By the environment:
 //   FAULT_AT=N         the Nth such call within main(), from 1; 0 for none
 //   FAULT=28           its errno; 0 ends the process by SIGKILL instead, in the middle of a write
-//   FAULT_CALLS=files  or `memory`: what is counted
+//   FAULT_CALLS=files  or `reads` or `memory`: what is counted
 //   FAULT_LOG=FILE     gets a line for every call that is counted
 // Only the program named dstylize is touched, not the codec that it starts.
 #include <dlfcn.h>
@@ -22,7 +23,7 @@
 
 namespace {
 
-enum class Calls { none, files, memory };
+enum class Calls { none, files, reads, memory };
 
 Calls counted = Calls::none;
 long fault_at = 0;
@@ -42,7 +43,8 @@ void begin() {
     if (const char* number = std::getenv("FAULT")) fault = std::atoi(number);
     if (const char* path = std::getenv("FAULT_LOG"))
         log_file = int(syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-    counted = std::strcmp(what, "memory") == 0 ? Calls::memory : Calls::files;
+    const auto is = [what](const char* kind) { return std::strcmp(what, kind) == 0; };
+    counted = is("memory") ? Calls::memory : is("reads") ? Calls::reads : Calls::files;
 }
 
 /// Counts a call, and says whether it is the one that goes wrong. `errno` is then set.
@@ -79,6 +81,14 @@ bool write_fails(int file, const void* bytes, std::size_t size) {
     return true;
 }
 
+/// Of a file on a disk; those of the system say that they are empty.
+bool read_fails(int file) {
+    struct stat status {};
+    if (counted != Calls::reads || fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0)
+        return false;
+    return is_kept(file) && fails(Calls::reads, "read");
+}
+
 int (*own_main)(int, char**, char**) = nullptr;
 
 int main_with_faults(int count, char** words, char** environment) {
@@ -105,6 +115,10 @@ ssize_t write(int file, const void* bytes, size_t size) {
 ssize_t writev(int file, const iovec* parts, int count) {
     if (count > 0 && write_fails(file, parts[0].iov_base, parts[0].iov_len)) return -1;
     return syscall(SYS_writev, file, parts, count);
+}
+
+ssize_t read(int file, void* bytes, size_t size) {
+    return read_fails(file) ? -1 : syscall(SYS_read, file, bytes, size);
 }
 
 int fsync(int file) { return fails(Calls::files, "fsync") ? -1 : int(syscall(SYS_fsync, file)); }

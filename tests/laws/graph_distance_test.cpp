@@ -125,6 +125,11 @@ TEST(GraphDistance, StaysInTheMaskAndReachesEveryPartOfIt) {
         for (int i = 0; i < 120; ++i) mask(i, j) = i % 40 < 30;  // three islands
     const NodeId start[] = {NodeId{10 * 120 + 5}};
     const std::vector<NodeId> stipples = graph_distance_stipples({expense, 3, start, mask}, {});
+    for (const int threads : {1, 2, 5}) {
+        Work work;
+        work.threads = threads;
+        EXPECT_EQ(graph_distance_stipples({expense, 3, start, mask}, work), stipples) << threads << " threads";
+    }
     std::set<NodeId> distinct(stipples.begin(), stipples.end());
     EXPECT_EQ(distinct.size(), stipples.size()) << "a node became a stipple twice";
     EXPECT_FALSE(distinct.contains(start[0]));

@@ -229,18 +229,30 @@ TEST(TilePlanner, SearchesOnlyWhatFallsWhenASourceHasCome) {
     EXPECT_LT(10 * again.visits, stats.visits);
 }
 
-/// Work is counted, as time is not tested: visits and rows for 8 neighbours and noise, the costliest map.
+/// Work is counted, as time is not tested: visits and rows for 8 neighbours and noise, the costliest map, from 0.25 to
+/// 24 megapixels.
 TEST(TilePlanner, VisitsATileAFewTimes) {
-    Dice dice(1);
-    std::vector<NodeWeight> weight(1000 * 1000);
-    for (NodeWeight& w : weight) w = NodeWeight(1 + dice.below(255));
-    const RandomGraph g = weighted({1000, 1000}, Neighbourhood::square8, std::move(weight));
-    Work work;
-    work.threads = 1;
-    TileStats stats;
-    plan_by_tiles({g.graph, g.sources, Metric::sum}, work, stats);
-    EXPECT_LE(double(stats.visits) / double(stats.tiles), 3.5);
-    EXPECT_LE(64.0 * double(stats.rows_relaxed) / 1e6, 40.0) << "relaxations of a node";
+    struct Most {
+        Metric metric;
+        double visits_of_a_tile, relaxations_of_a_node;
+    };
+    for (const int side : {500, 1000, test::kSanitized ? 1500 : 4900}) {
+        Dice dice(1);
+        std::vector<NodeWeight> weight(std::size_t(side) * std::size_t(side));
+        for (NodeWeight& w : weight) w = NodeWeight(1 + dice.below(255));
+        const double nodes = double(weight.size());
+        const RandomGraph g = weighted({side, side}, Neighbourhood::square8, std::move(weight));
+        for (const Most most : {Most{Metric::sum, 3.5, 40}, Most{Metric::max_sum, 10, 100}}) {
+            SCOPED_TRACE(g.shape + ", " + std::string(metric_names()[std::size_t(most.metric)]));
+            Work work;
+            work.threads = 1;
+            TileStats stats;
+            plan_by_tiles({g.graph, g.sources, most.metric}, work, stats);
+            EXPECT_LE(double(stats.visits) / double(stats.tiles), most.visits_of_a_tile);
+            EXPECT_LE(64.0 * double(stats.rows_relaxed) / nodes, most.relaxations_of_a_node);
+                        64.0 * double(stats.rows_relaxed) / nodes);
+        }
+    }
 }
 
 }  // namespace

@@ -150,6 +150,25 @@ TEST_F(FolderFault, AnErrorOfTheDiskIsNoFalseSuccess) {
     }
 }
 
+TEST_F(FolderFault, AnErrorOfReadingIsNoFalseSuccess) {
+    const long reads = calls("reads", kDraw);
+    ASSERT_GE(reads, 4) << "the ledger and two pictures";
+    int failed = 0;
+    for (long at = 1; at <= reads; ++at) {
+        SCOPED_TRACE("read " + std::to_string(at));
+        restore();
+        const Outcome outcome = faulty({"reads", at, EIO}, kDraw);
+        expect_nothing_broken();
+        if (outcome.exit_code != 0) {
+            ++failed;
+            EXPECT_TRUE(outcome.exit_code >= 3 && outcome.exit_code <= 5) << outcome.exit_code;
+            EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        }
+        expect_mended();
+    }
+    EXPECT_GE(failed, 3);
+}
+
 TEST_F(FolderFault, AKillAtAnyCallIsMendedByTheNextRun) {
     for (long at = 1; at <= moments_; ++at) {
         SCOPED_TRACE("call " + std::to_string(at));
