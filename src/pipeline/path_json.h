@@ -1,13 +1,14 @@
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace dstylize {
 
 /// A path in JSON: a text or, as names of files need not be UTF-8 and JSON must be, a list of its bytes.
 template <class Json>
 Json path_json(const std::string& path) {
-    const Json text = path;
+    Json text = path;
     try {
         static_cast<void>(text.dump());
         return text;

@@ -250,7 +250,6 @@ TEST(TilePlanner, VisitsATileAFewTimes) {
             plan_by_tiles({g.graph, g.sources, most.metric}, work, stats);
             EXPECT_LE(double(stats.visits) / double(stats.tiles), most.visits_of_a_tile);
             EXPECT_LE(64.0 * double(stats.rows_relaxed) / nodes, most.relaxations_of_a_node);
-                        64.0 * double(stats.rows_relaxed) / nodes);
         }
     }
 }
