@@ -29,10 +29,11 @@ class HalfRows {
         : width_(std::size_t(width)), low_(kRows * width_), high_(both ? low_.size() : std::size_t{0}) {}
     void load(const std::uint32_t* label, int row) {
         label += std::size_t(row) * width_;
-        std::uint16_t *const low = low_.data() + at(row), *const high = high_.data() + at(row);
+        std::uint16_t* const low = low_.data() + at(row);
         for (std::size_t i = 0; i < width_; ++i) low[i] = std::uint16_t(label[i]);
-        if (!high_.empty())
-            for (std::size_t i = 0; i < width_; ++i) high[i] = std::uint16_t(label[i] >> 16);
+        if (high_.empty()) return;
+        std::uint16_t* const high = high_.data() + at(row);
+        for (std::size_t i = 0; i < width_; ++i) high[i] = std::uint16_t(label[i] >> 16);
     }
     const std::uint16_t* low(int row) const { return low_.data() + at(row); }
     const std::uint16_t* high(int row) const { return high_.data() + at(row); }
