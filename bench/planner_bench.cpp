@@ -263,16 +263,15 @@ bool compare(double mega, const std::string& only, const std::string& json) {
 std::array<double, 6> growth_row(double mega) {
     const WeightedLattice g = weight_map("portrait", mega, Neighbourhood::square8);
     const int times = mega < 4 ? 9 : mega < 100 ? 3 : 1;
+    const Grid<float> expense = stippling_expense(g);
+    const NodeId start[] = {map_source(g.lattice)};
     std::array<double, 6> row{};
     for (const int threads : {1, 2}) {
         const std::size_t k = std::size_t(threads) - 1;
         planned(tile_planner(), g, Metric::sum, threads, times, row[k]);
         planned(tile_planner(), g, Metric::max_sum, threads, times, row[2 + k]);
+        stippled({expense, kStipplingThreshold, start, {}}, threads, times, row[4 + k]);
     }
-    const Grid<float> expense = stippling_expense(g);
-    const NodeId start[] = {map_source(g.lattice)};
-    for (const int threads : {1, 2})
-        stippled({expense, kStipplingThreshold, start, {}}, threads, times, row[3 + std::size_t(threads)]);
     return row;
 }
 

@@ -26,8 +26,8 @@ inline PathLabel extended(PathLabel label, const PathEdge& e) {
 }
 
 // The metrics as policies. `label` is the label at e.to of the path that ends with e; at a source it is
-// the start label and e is the empty edge. For the first three a longer path always ranks
-// after its own beginning, which is all that best-first search asks for; the last is Prim's, by the last edge alone.
+// the start label and e is the empty edge. For the first three a longer path always ranks after its own
+// beginning, which is all that best-first search asks for; the last is Prim's, by the last edge alone.
 
 struct SumOrder {
     PathLabel label(PathLabel before, const PathEdge& e) const { return {0, extended(before, e).sum}; }

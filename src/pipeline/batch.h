@@ -57,15 +57,14 @@ struct BatchProgress {
 /// Checks what can be checked of a batch before a picture is read, and makes its manifest. Throws as run_batch does.
 Manifest batch_pictures(const BatchRequest& request);
 
-/// Draws all pictures that are not up to date: whose results are there as they were made, from the same content, in the
-/// same way, by the same version. Goes on past pictures that fail, among them those whose results
-/// would lie behind a link. As many are drawn at a time as there are threads
-/// and gibibytes of `each.max_memory_bytes`; each may need its share of them, and those that need more are drawn alone
-/// afterwards. The bytes of a result depend on none of this, nor on what is drawn elsewhere. A shard keeps a ledger of
-/// its own, so that several can run on one folder of results at a time.
-/// In a dry run nothing is written, and pictures that would be drawn are `done`.
-/// Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every picture: a style, an
-/// auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write); Error(cancelled).
+/// Draws all pictures that are not up to date: whose results are there, as long as they were made, from the same
+/// content, in the same way, by the same version. Goes on past pictures that fail, among them those whose results would
+/// lie behind a link or have become files of others. As many are drawn at a time as there are threads and gibibytes of
+/// `each.max_memory_bytes`; each may need its share of them, and those that need more are drawn alone afterwards. The
+/// bytes of a result depend on none of this, nor on what is drawn elsewhere. A shard keeps a ledger of its own, so that
+/// several can run on one folder of results at a time. In a dry run nothing is written, and pictures that would be
+/// drawn are `done`. Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every
+/// picture: a style, an auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write); Error(cancelled).
 BatchReport run_batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer,
                       const Work& work);
 

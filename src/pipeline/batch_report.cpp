@@ -123,10 +123,6 @@ std::string json_text(const ordered_json& tree) {
     return tree.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace
-
-namespace {
-
 /// Named after the results, whatever their formats; where that would be too long for a file's name, by its hash.
 fs::path thumbnail(const BatchPicture& picture, std::string_view which) {
     constexpr std::size_t kLongest = 240;
