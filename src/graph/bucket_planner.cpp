@@ -157,6 +157,7 @@ class BucketPlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
         work.check();
+        if (request.turn_penalty > 0) return reference_planner().plan(request, work);
         if (request.graph.lattice.adjacency())
             return request.graph.height_plane.empty() ? plan_with<kListed, ListedEdges<false>>(request, work)
                                                       : plan_with<kListed, ListedEdges<true>>(request, work);

@@ -44,18 +44,25 @@ struct QuantisedFlow {
     }
 };
 
+/// What an edge's direction has to do with its height.
+struct Bearing {
+    std::uint16_t factor = 0;         // of the step, kPoint
+    std::int16_t cos2 = 0, sin2 = 0;  // of twice the angle, kAnglePoint
+    Bearing(std::int64_t dx, std::int64_t dy, float step_factor) {
+        assert(step_factor > 0);
+        factor = std::uint16_t(rounded(std::min(step_factor, DirectionalCost::kLargestFactor) * (1 << kPoint)));
+        const std::int64_t squared = dx * dx + dy * dy, one = 1 << kAnglePoint;
+        if (squared == 0) return;
+        cos2 = std::int16_t((dx * dx - dy * dy) * one / squared);
+        sin2 = std::int16_t(2 * dx * dy * one / squared);
+    }
+};
+
 /// The steps of one stored plane.
 struct HeightPlane {
     Step step;
-    std::uint16_t factor;     // of the step, kPoint
-    std::int16_t cos2, sin2;  // of twice the step's angle, kAnglePoint
-    HeightPlane(Step s, float step_factor) : step(s) {
-        const int squared = s.dx * s.dx + s.dy * s.dy, one = 1 << kAnglePoint;
-        cos2 = std::int16_t((s.dx * s.dx - s.dy * s.dy) * one / squared);
-        sin2 = std::int16_t(2 * s.dx * s.dy * one / squared);
-        assert(step_factor > 0);
-        factor = std::uint16_t(rounded(std::min(step_factor, DirectionalCost::kLargestFactor) * (1 << kPoint)));
-    }
+    Bearing bearing;
+    HeightPlane(Step s, float step_factor) : step(s), bearing(s.dx, s.dy, step_factor) {}
 };
 
 /// A piece of a row: short enough for buffers on the stack, which the compiler knows not to overlap with
@@ -84,29 +91,36 @@ void fill_base(const NodeWeight* u, const NodeWeight* v, const NodeWeight* a, co
 
 /// Products of 16-bit numbers throughout: those every vector unit multiplies well. Sums of two quantised
 /// components stay within 16 bits.
-void fill_factor(const QuantisedFlow& flow, const HeightPlane& p, std::ptrdiff_t u, std::ptrdiff_t v, int count,
-                 Piece& factor) {
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const auto coherence = std::int16_t(flow.coherence[u + i] + flow.coherence[v + i]);
-        const auto cos2 = std::int16_t(flow.cos2[u + i] + flow.cos2[v + i]);
-        const auto sin2 = std::int16_t(flow.sin2[u + i] + flow.sin2[v + i]);
-        const std::int32_t across =
-            std::int32_t(coherence) * (1 << kAnglePoint) - std::int32_t(cos2) * p.cos2 - std::int32_t(sin2) * p.sin2;
-        // Rounding can leave it a hair below 0.
-        const std::int32_t extra = (std::max(across, 0) + (1 << (kAnglePoint - 1))) >> kAnglePoint;
-        factor[std::size_t(i)] = std::uint16_t(extra + (1 << kPoint));
-    }
-    if (p.factor == 1 << kPoint) return;
-    for (std::size_t i = 0; i < std::size_t(count); ++i)
-        factor[i] = saturated((std::uint32_t(factor[i]) * p.factor) >> kPoint);
+std::uint16_t crossing_factor(const QuantisedFlow& flow, std::ptrdiff_t u, std::ptrdiff_t v, const Bearing& b) {
+    const auto coherence = std::int16_t(flow.coherence[u] + flow.coherence[v]);
+    const auto cos2 = std::int16_t(flow.cos2[u] + flow.cos2[v]);
+    const auto sin2 = std::int16_t(flow.sin2[u] + flow.sin2[v]);
+    const std::int32_t across =
+        std::int32_t(coherence) * (1 << kAnglePoint) - std::int32_t(cos2) * b.cos2 - std::int32_t(sin2) * b.sin2;
+    // Rounding can leave it a hair below 0.
+    const std::int32_t extra = (std::max(across, 0) + (1 << (kAnglePoint - 1))) >> kAnglePoint;
+    return std::uint16_t(extra + (1 << kPoint));
 }
 
-void fill_heights(const Piece& base, const Piece& factor, int count, std::uint16_t* height) {
-    for (std::size_t i = 0; i < std::size_t(count); ++i) {
-        const std::uint32_t product = (std::uint32_t(base[i]) * factor[i] + (1 << (kPoint - 1))) >> kPoint;
-        const std::uint16_t present = base[i] != 0;
-        height[i] = std::max(saturated(product), present);
-    }
+std::uint16_t product(std::uint16_t factor, std::uint16_t other) {
+    return saturated((std::uint32_t(factor) * other) >> kPoint);
+}
+
+/// 0 where there is no edge, else at least 1.
+std::uint16_t height(std::uint16_t base, std::uint16_t factor) {
+    const std::uint16_t present = base != 0;
+    return std::max(saturated((std::uint32_t(base) * factor + (1 << (kPoint - 1))) >> kPoint), present);
+}
+
+void fill_factor(const QuantisedFlow& flow, const Bearing& bearing, std::ptrdiff_t u, std::ptrdiff_t v, int count,
+                 Piece& factor) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) factor[std::size_t(i)] = crossing_factor(flow, u + i, v + i, bearing);
+    if (bearing.factor == 1 << kPoint) return;
+    for (std::size_t i = 0; i < std::size_t(count); ++i) factor[i] = product(factor[i], bearing.factor);
+}
+
+void fill_heights(const Piece& base, const Piece& factor, int count, std::uint16_t* out) {
+    for (std::size_t i = 0; i < std::size_t(count); ++i) out[i] = height(base[i], factor[i]);
 }
 
 void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const HeightPlane& p, int row,
@@ -117,7 +131,7 @@ void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const HeightP
     const int first = std::max(0, -dx), end = std::min(e.x, e.x - dx);
     const auto away = [&](Offset o) { return std::ptrdiff_t(o.dy) * e.x + o.dx; };
     Piece base, factor;
-    factor.fill(p.factor);
+    factor.fill(p.bearing.factor);
     for (int i = first; i < end; i += kPiece) {
         const int count = std::min(kPiece, end - i);
         const std::ptrdiff_t u = std::ptrdiff_t(row) * e.x + i, v = u + away({dx, dy});
@@ -128,7 +142,7 @@ void fill_row(const WeightedLattice& g, const QuantisedFlow& flow, const HeightP
         } else {
             fill_base(w, w + (v - u), count, base);
         }
-        if (!flow.coherence.empty()) fill_factor(flow, p, u, v, count, factor);
+        if (!flow.coherence.empty()) fill_factor(flow, p.bearing, u, v, count, factor);
         fill_heights(base, factor, count, plane + u);
     }
 }
@@ -139,38 +153,38 @@ bool opposite_steps_are_equal(const std::vector<float>& factor) {
     return true;
 }
 
-/// 1 + A * coherence * sin^2 of the angle between a step and the mean flow of its ends.
-float crossing_factor(Vec2f step, Vec2f flow_u, Vec2f flow_v, float strength) {
-    const Vec2f mean = 0.5f * (flow_u + (dot(flow_u, flow_v) < 0 ? -1.0f : 1.0f) * flow_v);
-    const float cross = step.x * mean.y - step.y * mean.x, coherence = length(mean), squared = dot(step, step);
-    return coherence > 0 && squared > 0 ? 1 + strength * cross * cross / (squared * coherence) : 1;
-}
-
 /// The heights of an irregular lattice's edges, one by one.
-void list_heights(WeightedLattice& g, const DirectionalCost& cost, const Work& work) {
+void list_heights(WeightedLattice& g, const DirectionalCost& cost, const QuantisedFlow& flow) {
     const Adjacency& a = *g.lattice.adjacency();
-    assert(cost.step_factor.empty() || cost.step_factor.size() == a.to.size());
     g.symmetric = false;
     g.height_plane.assign(1, std::vector<std::uint16_t>(a.to.size(), 0));
-    const auto list_node = [&](std::uint32_t u) {
+    tbb::parallel_for(std::uint32_t{0}, std::uint32_t(g.weight.size()), [&](std::uint32_t u) {
         for (std::uint32_t e = a.first[u]; e < a.first[u + 1]; ++e) {
             const std::uint32_t v = a.to[e];
             if (g.weight[u] == kImpassable || g.weight[v] == kImpassable) continue;
-            float factor = cost.step_factor.empty() ? 1 : cost.step_factor[e];
-            if (!cost.flow.empty())
-                factor *= crossing_factor(a.position_lattice[v] - a.position_lattice[u], cost.flow[u], cost.flow[v],
-                                          cost.strength);
-            const float height = float(g.weight[u] + g.weight[v]) * std::min(factor, DirectionalCost::kLargestFactor);
-            g.height_plane[0][e] = std::uint16_t(std::clamp(height + 0.5f, 1.0f, float(kLargestHeight)));
+            constexpr float kFinely = 1024;
+            const Vec2f way = kFinely * (a.position_lattice[v] - a.position_lattice[u]);
+            const Bearing bearing(rounded(way.x), rounded(way.y), cost.step_factor.empty() ? 1 : cost.step_factor[e]);
+            std::uint16_t factor = bearing.factor;
+            if (!flow.coherence.empty()) factor = product(crossing_factor(flow, u, v, bearing), factor);
+            g.height_plane[0][e] = height(saturated(std::uint32_t(g.weight[u]) + g.weight[v]), factor);
         }
-    };
-    tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
-        tbb::parallel_for(0, g.lattice.extent().y, [&](int j) {
-            for (int i = 0; i < g.lattice.extent().x; ++i) list_node(index(g.lattice.at(i, j)));
-        });
     });
-    work.check();
+}
+
+/// A plane for every step that is stored.
+void fill_planes(WeightedLattice& g, const DirectionalCost& cost, const QuantisedFlow& flow) {
+    const auto steps = g.lattice.steps();
+    g.symmetric = opposite_steps_are_equal(cost.step_factor);
+    std::vector<HeightPlane> planes;
+    for (std::size_t s = 0; s < steps.size(); s += g.symmetric ? 2 : 1)
+        planes.emplace_back(steps[s], cost.step_factor.empty() ? 1.f : cost.step_factor[s]);
+    g.height_plane.resize(planes.size());
+    tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t p) {
+        std::vector<std::uint16_t>& plane = g.height_plane[p];
+        plane.assign(g.weight.size(), 0);
+        tbb::parallel_for(0, g.lattice.extent().y, [&](int j) { fill_row(g, flow, planes[p], j, plane.data()); });
+    });
 }
 
 }  // namespace
@@ -204,27 +218,17 @@ std::vector<float> downward_bias(const Lattice& lattice, float down) {
 }
 
 void build_height_planes(WeightedLattice& g, const DirectionalCost& cost, const Work& work) {
-    if (g.lattice.adjacency()) return list_heights(g, cost, work);
-    const auto steps = g.lattice.steps();
+    const Adjacency* const listed = g.lattice.adjacency();
     assert(cost.flow.empty() || cost.flow.extent() == g.lattice.extent());
-    assert(cost.step_factor.empty() || cost.step_factor.size() == steps.size());
+    assert(cost.step_factor.empty() ||
+           cost.step_factor.size() == (listed ? listed->to.size() : g.lattice.steps().size()));
     assert(g.weight.size() == g.lattice.node_count());
     work.check();
-    g.symmetric = opposite_steps_are_equal(cost.step_factor);
-    std::vector<HeightPlane> planes;
-    for (std::size_t s = 0; s < steps.size(); s += g.symmetric ? 2 : 1)
-        planes.emplace_back(steps[s], cost.step_factor.empty() ? 1.f : cost.step_factor[s]);
-    g.height_plane.resize(planes.size());
-
     tbb::task_arena arena(work.threads > 0 ? work.threads : tbb::task_arena::automatic);
     arena.execute([&] {
         const bool has_flow = !cost.flow.empty() && cost.strength > 0;
         const QuantisedFlow flow = has_flow ? QuantisedFlow(cost.flow, cost.strength) : QuantisedFlow();
-        tbb::parallel_for(std::size_t{0}, planes.size(), [&](std::size_t p) {
-            std::vector<std::uint16_t>& plane = g.height_plane[p];
-            plane.assign(g.weight.size(), 0);
-            tbb::parallel_for(0, g.lattice.extent().y, [&](int j) { fill_row(g, flow, planes[p], j, plane.data()); });
-        });
+        listed ? list_heights(g, cost, flow) : fill_planes(g, cost, flow);
     });
     work.check();
 }

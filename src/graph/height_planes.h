@@ -35,8 +35,8 @@ std::vector<float> pull_factors(const Lattice& lattice, Vec2f pull);
 std::vector<float> downward_bias(const Lattice& lattice, float down);
 
 /// Fills `graph.height_plane` and `graph.symmetric` from `graph.weight`. A height is the one of the
-/// node weights, saturated at 65535, times the factors above, rounded, in [1, 65535]; on regular lattices all in
-/// integers, with factors in steps of 1/1024. Planes are symmetric where opposite steps have equal factors.
+/// node weights, saturated at 65535, times the factors above, rounded, in [1, 65535]; all in integers, with
+/// factors in steps of 1/1024. Planes are symmetric where opposite steps have equal factors.
 void build_height_planes(WeightedLattice& graph, const DirectionalCost& cost, const Work& work);
 
 }  // namespace dstylize

@@ -11,7 +11,7 @@ namespace dstylize {
 struct PathEdge {
     NodeId from = kNoNode, to = kNoNode;
     std::uint32_t height = 0;
-    std::uint32_t length5 = 0;
+    std::uint64_t cost = 0;
 };
 
 /// What the planners compare: the smaller rank is settled first.
@@ -22,7 +22,7 @@ struct Rank {
 
 /// A path's label after one more edge.
 inline PathLabel extended(PathLabel label, const PathEdge& e) {
-    return {std::max(label.highest, e.height), label.sum + std::uint64_t(e.height) * e.length5};
+    return {std::max(label.highest, e.height), label.sum + e.cost};
 }
 
 // The metrics as policies. `label` is the label at e.to of the path that ends with e; at a source it is

@@ -40,6 +40,11 @@ struct PlanRequest {
     /// fall, and only what falls is searched again. Of no use where a source has gone or starts later now.
     const Plan* earlier = nullptr;
     std::span<const Source> earlier_sources{};
+    /// In 1/256: an edge costs (1 - cos) / 2 times this share of its cost more, for the angle to the edge before it.
+    /// Irregular lattices alone, and best-first search (the reference planner): a node keeps the path that reached it
+    /// first, though another that arrives in a better direction might lead on for less. So S(v) is the least
+    /// S(u) + c over the neighbours u, each with the parent that it has, and not the least of all paths.
+    std::uint32_t turn_penalty = 0;
 };
 
 /// The seat of the planners. The reference planner is the oracle of every other one.
@@ -47,7 +52,7 @@ class Planner {
   public:
     virtual ~Planner() = default;
     /// Labels, parents and owners of all nodes. Throws Error(bad_usage) when there is no source or a
-    /// source lies on an impassable node, Error(cancelled).
+    /// source lies on an impassable node, or a turn penalty is set on a regular lattice; Error(cancelled).
     virtual Plan plan(const PlanRequest& request, const Work& work) const = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "graph/detail_sources.h"
+#include "graph/detail_turn_cost.h"
 #include "graph/detail_wide_plan.h"
 #include "graph/metric.h"
 #include "graph/planner.h"
@@ -23,6 +24,7 @@ class BestFirstSearch {
     BestFirstSearch(const PlanRequest& request, Order order)
         : graph_(request.graph),
           order_(order),
+          turn_cost_(request.graph.lattice, request.turn_penalty),
           plan_(node_count()),
           best_(node_count(), kWorst),
           settled_(node_count(), false) {
@@ -49,7 +51,9 @@ class BestFirstSearch {
         for (int s = 0; s < graph_.degree(u); ++s) {
             const std::uint32_t height = graph_.height(u, s);
             if (height == 0) continue;
-            const PathEdge e{u, graph_.neighbour(u, s), height, graph_.length5(u, s)};
+            const NodeId v = graph_.neighbour(u, s);
+            const std::uint64_t cost = std::uint64_t(height) * graph_.length5(u, s);
+            const PathEdge e{u, v, height, cost + turn_cost_(plan_.parent[index(u)], u, v, cost)};
             offer(e.to, order_.label(plan_.label[index(u)], e), e, plan_.owner[index(u)]);
         }
     }
@@ -68,6 +72,7 @@ class BestFirstSearch {
 
     const WeightedLattice& graph_;
     const Order order_;
+    const TurnCost turn_cost_;
     WidePlan plan_;
     std::vector<Rank> best_;
     std::vector<bool> settled_;
@@ -77,6 +82,9 @@ class BestFirstSearch {
 class ReferencePlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
+        if (request.turn_penalty > 0 && !request.graph.lattice.adjacency())
+            throw Error(ErrorCode::bad_usage, "", "a turn penalty needs a lattice that favours no direction",
+                        "plan on a scattered lattice or on hexagons");
         switch (request.metric) {
             case Metric::sum: return BestFirstSearch(request, SumOrder{}).run(work);
             case Metric::max_sum: return BestFirstSearch(request, MaxSumOrder{}).run(work);

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/sampling.h"
+#include "graph/detail_listing.h"
 
 namespace dstylize {
 namespace {
@@ -56,13 +56,6 @@ void find_nearest(const std::vector<Vec2f>& position, Extent e, int i, int j, st
         const float sure = float(reach) - 0.5f;
         if (all || (wanted == kNearest && near.back().squared <= sure * sure)) return;
     }
-}
-
-bool stays_inside(const Grid<std::uint8_t>& passable, Vec2f a, Vec2f b) {
-    constexpr int kPieces = 4;
-    for (int k = 0; k <= kPieces; ++k)
-        if (!sample(passable, lerp(a, b, float(k) / kPieces))) return false;
-    return true;
 }
 
 NearestNodes nearest_nodes(const std::vector<Vec2f>& position, const Grid<std::uint8_t>& passable) {
@@ -120,10 +113,8 @@ Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise no
     a->length5.resize(a->to.size());
     tbb::parallel_for(std::uint32_t{0}, std::uint32_t(nearest.size()), [&](std::uint32_t n) {
         std::sort(a->to.begin() + a->first[n], a->to.begin() + a->first[n + 1]);
-        for (std::uint32_t k = a->first[n]; k < a->first[n + 1]; ++k) {
-            const float five = 5 * distance(a->position_lattice[n], a->position_lattice[a->to[k]]);
-            a->length5[k] = std::uint8_t(std::clamp(five + 0.5f, 1.0f, 255.0f));
-        }
+        for (std::uint32_t k = a->first[n]; k < a->first[n + 1]; ++k)
+            a->length5[k] = length5_between(a->position_lattice[n], a->position_lattice[a->to[k]]);
     });
     return Lattice(e, std::move(a));
 }

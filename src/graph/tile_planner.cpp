@@ -149,7 +149,7 @@ ParentColumn parents(const WeightedLattice& g, std::span<const std::uint32_t> su
 std::optional<Plan> tiled(const PlanRequest& request, const Work& work, TileStats& stats) {
     const WeightedLattice& g = request.graph;
     const bool has_bottlenecks = request.metric == Metric::max_sum;
-    if (request.metric == Metric::blend) return {};
+    if (request.metric == Metric::blend || request.turn_penalty > 0) return {};
     if (g.lattice.adjacency() && request.metric != Metric::sum) return {};
     const std::vector<Source> sources = distinct_sources(request);
     if (g.lattice.adjacency()) return plan_listed(request, sources, work, stats);

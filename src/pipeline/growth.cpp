@@ -90,7 +90,7 @@ void release_intermediates(Fields& fields) {
 }
 
 /// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
-WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round,
+WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Dendrite& drawn,
                         const DirectionalCost& directional, const Work& work) {
     const StageParameters& stage = round.stage;
     WeightedLattice graph{base.lattice, {}, {}, true};
@@ -109,6 +109,11 @@ WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round
         if (stage.cost_power != 1) c = std::pow(c, stage.cost_power);
         graph.weight[n] = NodeWeight(1 + std::lround(top * std::min(1.0f, c / stage.cost_max)));
     });
+    if (stage.earlier_paths < 1)
+        for (const NodeId node : drawn.node) {
+            NodeWeight& weight = graph.weight[index(node)];
+            weight = NodeWeight(std::max(1l, std::lround(stage.earlier_paths * float(weight))));
+        }
     if (!directional.flow.empty() || !directional.step_factor.empty()) build_height_planes(graph, directional, work);
     return graph;
 }
@@ -249,6 +254,8 @@ bool may_be_planned_again(const Style& style, std::size_t stage, bool has_anothe
 Plan planned(const WeightedLattice& graph, std::span<const Source> sources, const StageParameters& stage,
              const std::optional<EarlierRound>& earlier, const Work& work) {
     PlanRequest request{graph, sources, stage.metric, std::uint32_t(stage.blend_factor)};
+    constexpr float kTurnUnit = 256;
+    request.turn_penalty = std::uint32_t(std::lround(kTurnUnit * stage.turn_penalty));
     if (earlier && earlier->metric == stage.metric && earlier->graph.weight == graph.weight &&
         earlier->graph.height_plane == graph.height_plane && earlier->graph.symmetric == graph.symmetric) {
         request.earlier = &earlier->plan;
@@ -298,7 +305,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 transform(share, [](float v) { return std::clamp(2 * v, 0.0f, 1.0f); });
                 fields.replace("lacking", std::move(share));
             }
-            WeightedLattice graph = weights(fields, base, round, directional, work);
+            WeightedLattice graph = weights(fields, base, round, growth.dendrite(), directional, work);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))

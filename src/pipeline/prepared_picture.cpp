@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/listed_lattices.h"
 #include "graph/scattered_lattice.h"
 #include "imaging/filters.h"
 #include "imaging/skeleton.h"
@@ -71,8 +72,15 @@ Grid<float> placed(const Grid<float>& plane, Extent lattice, const LatticeParame
 
 Lattice laid_lattice(const Grid<std::uint8_t>& passable, const LatticeParameters& p, std::uint64_t seed,
                      const Work& work) {
-    if (p.kind == LatticeParameters::Kind::regular) return Lattice(passable.extent(), p.neighbourhood);
-    return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), work);
+    const Noise noise(seed, Purpose::jitter);
+    switch (p.kind) {
+        case LatticeParameters::Kind::regular:
+            if (p.jitter > 0) return moved_squares(p.neighbourhood, p.jitter, passable, noise, work);
+            return Lattice(passable.extent(), p.neighbourhood);
+        case LatticeParameters::Kind::hexagon: return hexagon_lattice(p.jitter, passable, noise, work);
+        case LatticeParameters::Kind::scattered: return scattered_lattice(passable.extent(), passable, noise, work);
+    }
+    return {};
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ class Run {
     /// list of edges.
     double bytes_per_node() const {
         constexpr double kOfWeights = 42, kOfDirections = 130, kOfLists = 330;
-        if (style_.lattice.kind == LatticeParameters::Kind::scattered) return kOfLists;
+        if (style_.lattice.kind != LatticeParameters::Kind::regular || style_.lattice.jitter > 0) return kOfLists;
         const auto has_directions = [](const StageParameters& s) {
             return s.along_flow > 0 || s.down != 0 || s.up != 0 || s.wind != 0;
         };

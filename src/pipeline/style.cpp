@@ -6,12 +6,17 @@ namespace dstylize {
 
 void LatticeParameters::visit(ParameterVisitor& v) {
     static constexpr std::array<std::string_view, 3> kNeighbourhoods{"4", "8", "16"};
-    static constexpr std::array<std::string_view, 2> kKinds{"regular", "scattered"};
-    choice(v, {"kind", "", "a square lattice, or scattered nodes joined to their 12 nearest: no straight runs"}, kind,
-           kKinds);
+    static constexpr std::array<std::string_view, 3> kKinds{"regular", "hexagon", "scattered"};
+    choice(v,
+           {"kind", "",
+            "squares, hexagons (6 neighbours), or scattered nodes joined to their 12 nearest: no straight runs"},
+           kind, kKinds);
     v.integer({"detail", "nodes", "lattice nodes on the picture's long side"}, detail, 16, 16384);
     choice(v, {"neighbours", "", "regular: steps a path can take from a node; 16 takes staircases out of long lines"},
            neighbourhood, kNeighbourhoods);
+    v.number(
+        {"jitter", "", "regular, hexagon: nodes are moved by up to this share of half a step: roughens long lines"},
+        jitter, 0, 1);
     v.number({"margin", "u", "nothing grows this near to the frame"}, margin, 0, 100);
     v.number({"stem", "u", "with a mask, u is such that its strokes are this wide; 0: 1/1024 of the long side"}, stem,
              0, 512);
@@ -84,6 +89,12 @@ void StageParameters::visit(ParameterVisitor& v) {
              10);
     v.number({"noise_scale", "u", "wavelength of the smooth noise"}, noise_scale, 2, 400);
     v.number({"bare", "u", "way from the root on which starting a branch costs more"}, bare, 0, 2000);
+    v.number(
+        {"turn_penalty", "", "not on regular lattices: how much dearer an edge is that turns back; bends cost part"},
+        turn_penalty, 0, 20);
+    v.number({"earlier_paths", "",
+              "what nodes on earlier paths cost, as a share: from the root, paths leave them at acos of it"},
+             earlier_paths, 0, 1);
     v.integer({"batches", "", "rounds of growth, each seeing what the ones before have drawn"}, batches, 1, 64);
     v.number({"path_lack", "", "a path is grown only if wanted less drawn ink is more than this along it; -1: always"},
              path_lack, -1, 1);

@@ -14,10 +14,11 @@ namespace dstylize {
 
 /// What the dendrite grows on: the [lattice] table.
 struct LatticeParameters {
-    enum class Kind { regular, scattered };
+    enum class Kind { regular, hexagon, scattered };
     Kind kind = Kind::regular;
     int detail = 1024;  ///< nodes on the picture's long side
     Neighbourhood neighbourhood = Neighbourhood::square8;
+    float jitter = 0;  ///< how far nodes are moved, in half steps; scattered ones always are by up to 1
     float margin = 5;  ///< u: nothing grows this near to the frame
     float stem = 0;    ///< u: with a mask, how wide its strokes are; 0: u is 1/1024 of the long side
     float picture_scale = 1, picture_x = 0.5f, picture_y = 0.5f;  ///< the picture inside the frame
@@ -74,6 +75,8 @@ struct StageParameters {
     float up = 0, wind = 0;
     float noise_white = 0, noise_smooth = 0, noise_scale = 36;
     float bare = 0;
+    float turn_penalty = 0;
+    float earlier_paths = 1;
     int batches = 1;
     float path_lack = -1, path_longest = 0;
     std::string path_inside;

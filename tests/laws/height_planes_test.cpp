@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "graph/scattered_lattice.h"
 #include "laws/random_graphs.h"
 
 namespace dstylize {
@@ -65,6 +66,28 @@ TEST(HeightPlanes, FollowTheFormulaOfTheFlow) {
             });
         }
     }
+}
+
+TEST(HeightPlanes, FollowTheFormulaOnIrregularLatticesToo) {
+    const Extent e{25, 19};
+    WeightedLattice g;
+    g.lattice = scattered_lattice(e, Grid<std::uint8_t>(e, 1), Noise(1, Purpose::jitter), {});
+    Dice dice(7);
+    for (std::size_t n = 0; n < e.count(); ++n)
+        g.weight.push_back(dice.one_in(9) ? kImpassable : NodeWeight(dice.between(1, 255)));
+    const Vec2f flow{0.3f, 0.6f}, pull{0.4f, -0.7f};
+    build_height_planes(g, {Grid<Vec2f>(e, flow), 2.5f, pull_factors(g.lattice, pull)}, {});
+    const Adjacency& a = *g.lattice.adjacency();
+    for (std::uint32_t u = 0; u < e.count(); ++u)
+        for (std::uint32_t edge = a.first[u]; edge < a.first[u + 1]; ++edge) {
+            const Vec2f way = a.position_lattice[a.to[edge]] - a.position_lattice[u];
+            const double cross = double(way.x) * flow.y - double(way.y) * flow.x;
+            const double across = 1 + 2.5 * cross * cross / double(dot(way, way) * length(flow));
+            const bool exists = g.weight[u] != kImpassable && g.weight[a.to[edge]] != kImpassable;
+            const double expected =
+                exists ? (g.weight[u] + g.weight[a.to[edge]]) * across * double(pull_factor(way, pull)) : 0;
+            ASSERT_NEAR(g.height_plane[0][edge], expected, 0.5 + expected * 0.006) << u;
+        }
 }
 
 TEST(HeightPlanes, DoNotCareForTheSignOfTheFlow) {

@@ -101,6 +101,7 @@ std::vector<std::string> styles_for(const std::string& key) {
                                                             {"stage.endpoints.first_spacing", "tree"},
                                                             {"stage.bare", "tree"},
                                                             {"stage.batches", "tree"},
+                                                            {"stage.turn_penalty", "tree"},
                                                             {"stage.blend_factor", "tree"},
                                                             {"stage.carry_cost", "tree"},
                                                             {"stage.layer", "tree"},

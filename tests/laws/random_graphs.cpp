@@ -121,6 +121,32 @@ RandomGraph random_graph(std::uint32_t seed, int largest_side) {
     return r;
 }
 
+RandomGraph random_graph_on(Lattice lattice, std::uint32_t seed) {
+    Dice dice(seed);
+    RandomGraph r;
+    const auto nodes = std::uint32_t(lattice.node_count());
+    r.graph.lattice = std::move(lattice);
+    const int levels = dice.one_in(2) ? 3 : 4000;
+    for (std::uint32_t n = 0; n < nodes; ++n)
+        r.graph.weight.push_back(dice.one_in(6) ? kImpassable : NodeWeight(dice.between(1, levels)));
+    r.graph.weight[0] = 1;
+    if (dice.one_in(2)) {
+        DirectionalCost cost;
+        const Vec2f pull{dice.unit() - 0.5f, -dice.unit()};
+        cost.step_factor = pull_factors(r.graph.lattice, pull);
+        if (dice.one_in(2)) {
+            cost.strength = 2 * dice.unit();
+            cost.flow = Grid<Vec2f>(r.graph.lattice.extent());
+            for (Vec2f& f : cost.flow) f = {dice.unit() - 0.5f, dice.unit() - 0.5f};
+        }
+        build_height_planes(r.graph, cost, {});
+    }
+    r.sources.push_back({NodeId{0}, dice.below(50), 0});
+    for (std::uint32_t n = 1; n < nodes; ++n)
+        if (dice.one_in(40) && r.graph.passable(NodeId{n})) r.sources.push_back({NodeId{n}, dice.below(50), 1});
+    return r;
+}
+
 void expect_same_plan(const Plan& found, const Plan& expected, const std::string& what) {
     ASSERT_TRUE(found.label == expected.label) << what;
     ASSERT_TRUE(found.parent == expected.parent) << what;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/grid.h"
 #include "graph/planner.h"
 
 namespace dstylize::test {
@@ -24,6 +25,9 @@ class Dice {
 
 inline constexpr Metric kMetrics[] = {Metric::sum, Metric::max_sum, Metric::lexicographic, Metric::blend};
 
+/// A grid on which every cell is passable.
+inline Grid<std::uint8_t> open_ground(Extent e) { return Grid<std::uint8_t>(e, 1); }
+
 struct RandomGraph {
     WeightedLattice graph;
     std::vector<Source> sources;
@@ -34,6 +38,9 @@ struct RandomGraph {
 /// mazes, walls, few levels, weights to 65535, planes of either symmetry, built or plain random;
 /// sources with start labels and owners, some of them twice.
 RandomGraph random_graph(std::uint32_t seed, int largest_side);
+
+/// Random weights, walls and sources of two owners on an irregular lattice, on half of them heights per direction.
+RandomGraph random_graph_on(Lattice lattice, std::uint32_t seed);
 
 /// All three columns; gtest's way to say no, with the message.
 void expect_same_plan(const Plan& found, const Plan& expected, const std::string& what);

@@ -18,7 +18,7 @@
 namespace dstylize {
 namespace {
 
-Grid<std::uint8_t> open_ground(Extent e) { return Grid<std::uint8_t>(e, 1); }
+using test::open_ground;
 
 Lattice lattice(const Grid<std::uint8_t>& passable, std::uint64_t seed) {
     return scattered_lattice(passable.extent(), passable, Noise(seed, Purpose::jitter), {});
@@ -68,26 +68,10 @@ TEST(ScatteredLattice, NoEdgePassesThroughAWall) {
             ASSERT_EQ(a.position_lattice[n].x < 15, a.position_lattice[a.to[e]].x < 15);
 }
 
-/// Random weights, walls and sources on a scattered lattice, half of them with heights per direction.
 test::RandomGraph scattered_graph(std::uint32_t seed, int largest_side = 14) {
     test::Dice dice(seed);
     const Extent e{dice.between(1, largest_side), dice.between(1, largest_side)};
-    test::RandomGraph r;
-    r.graph.lattice = lattice(open_ground(e), seed);
-    const int levels = dice.one_in(2) ? 3 : 4000;
-    for (std::size_t n = 0; n < e.count(); ++n)
-        r.graph.weight.push_back(dice.one_in(6) ? kImpassable : NodeWeight(dice.between(1, levels)));
-    r.graph.weight[0] = 1;
-    if (dice.one_in(2)) {
-        DirectionalCost cost;
-        const Vec2f pull{dice.unit() - 0.5f, -dice.unit()};
-        cost.step_factor = pull_factors(r.graph.lattice, pull);
-        build_height_planes(r.graph, cost, {});
-    }
-    r.sources.push_back({NodeId{0}, dice.below(50), 0});
-    for (std::uint32_t n = 1; n < e.count(); ++n)
-        if (dice.one_in(40) && r.graph.passable(NodeId{n})) r.sources.push_back({NodeId{n}, dice.below(50), 1});
-    return r;
+    return test::random_graph_on(lattice(open_ground(e), seed), seed);
 }
 
 TEST(ScatteredLattice, ThePlannersAgreeBitForBit) {
