@@ -126,6 +126,18 @@ Plan search(const PlanRequest& request, const Work& work, Keys keys, const EdgeR
 constexpr int kListed = 0;  // in the place of a number of steps: an irregular lattice
 
 template <int kSteps, class Edges>
+Plan spanning_tree(const PlanRequest& request, const Work& work, std::uint32_t largest_height) {
+    if constexpr (kSteps == kListed) {
+        ListedNames names(request.graph.lattice);
+        if (!names.has_all()) return reference_planner().plan(request, work);
+        return SpanningTree<ListedNames, Edges>(request, std::move(names), largest_height).run(work);
+    } else {
+        const StepNames<kSteps> names(request.graph.lattice);
+        return SpanningTree<StepNames<kSteps>, Edges>(request, names, largest_height).run(work);
+    }
+}
+
+template <int kSteps, class Edges>
 Plan plan_with(const PlanRequest& request, const Work& work) {
     const EdgeRange range = edge_range(request.graph);
     std::uint64_t largest_start = 0;
@@ -137,11 +149,7 @@ Plan plan_with(const PlanRequest& request, const Work& work) {
         case Metric::sum: return search<Edges>(request, work, SumKeys{}, range);
         case Metric::max_sum: return search<Edges>(request, work, MaxSumKeys{}, range);
         case Metric::blend: return search<Edges>(request, work, BlendKeys{request.blend_factor}, range);
-        case Metric::lexicographic:
-            if constexpr (kSteps == kListed)
-                return reference_planner().plan(request, work);
-            else
-                return SpanningTree<kSteps, Edges>(request, range.largest_height).run(work);
+        case Metric::lexicographic: return spanning_tree<kSteps, Edges>(request, work, range.largest_height);
     }
     return {};
 }

@@ -148,6 +148,28 @@ TEST(ListedLattices, ThePlannersAgreeBitForBit) {
     }
 }
 
+TEST(ListedLattices, OneWayEdgesAndListsInAnyOrderAreWalkedAsTheyAre) {
+    for (std::uint32_t seed = 0; seed < 60; ++seed) {
+        Dice dice(seed);
+        const Lattice whole = hexagon_lattice(0, open_ground({9, 8}), jitter(1), {});
+        Adjacency a = *whole.adjacency();
+        const std::uint32_t edge = dice.below(std::uint32_t(a.to.size())), node = dice.below(72);
+        switch (seed % 3) {
+            case 0: a.to[edge] = (a.to[edge] + 1 + dice.below(70)) % 72; break;
+            case 1: a.length5[edge] = 9; break;
+            default: std::reverse(a.to.begin() + a.first[node], a.to.begin() + a.first[node + 1]); break;
+        }
+        const Lattice lattice(whole.extent(), std::make_shared<Adjacency>(std::move(a)));
+        const test::RandomGraph g = test::random_graph_on(lattice, seed);
+        for (const Metric metric : test::kMetrics) {
+            const PlanRequest request{g.graph, g.sources, metric, 500};
+            ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(tile_planner().plan(request, {}),
+                                                           reference_planner().plan(request, {}),
+                                                           std::to_string(seed)));
+        }
+    }
+}
+
 double bend(const Lattice& l, NodeId before, NodeId at, NodeId next) {
     const Vec2f in = normalized(l.position_lattice(at) - l.position_lattice(before));
     const Vec2f out = normalized(l.position_lattice(next) - l.position_lattice(at));

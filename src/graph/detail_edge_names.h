@@ -1,0 +1,88 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/lattice.h"
+
+namespace dstylize {
+
+// An edge's name, whichever way it is walked: its smaller node and the rank of the larger one among those that
+// edges lead to from there. Names are ordered as (smaller node, larger node) is, and fit into 40 bits.
+
+/// The names on a regular lattice of so many steps.
+template <int kSteps>
+class StepNames {
+  public:
+    explicit StepNames(const Lattice& lattice) {
+        const auto steps = lattice.steps();
+        const auto before = [](Step a, Step b) { return a.dy != b.dy ? a.dy < b.dy : a.dx < b.dx; };
+        const auto is_forward = [&](Step s) { return before({0, 0, 0}, s); };
+        for (std::size_t s = 0; s < kSteps; ++s) {
+            backward_[s] = !is_forward(steps[s]);
+            const Step forward = backward_[s] ? steps[s ^ 1] : steps[s];
+            for (const Step other : steps) rank_[s] += is_forward(other) && before(other, forward);
+            forward_[rank_[s]] = {std::uint32_t(forward.dy * lattice.extent().x + forward.dx), forward.length5};
+        }
+    }
+    std::uint64_t of(std::uint32_t from, std::uint32_t to, int step) const {
+        return std::uint64_t(backward_[std::size_t(step)] ? to : from) * kRanks + rank_[std::size_t(step)];
+    }
+    std::uint32_t smaller_node(std::uint64_t name) const { return std::uint32_t(name / kRanks); }
+    std::uint32_t larger_node(std::uint64_t name) const { return smaller_node(name) + forward_[name % kRanks].offset; }
+    std::uint32_t length5(std::uint64_t name) const { return forward_[name % kRanks].length5; }
+
+  private:
+    static constexpr std::uint32_t kRanks = 8;  // at least kSteps / 2
+    struct Forward {
+        std::uint32_t offset = 0;  // towards the larger node index
+        std::uint32_t length5 = 0;
+    };
+    std::array<bool, kSteps> backward_{};
+    std::array<std::uint32_t, kSteps> rank_{};
+    std::array<Forward, kRanks> forward_{};
+};
+
+/// The names on an irregular lattice, a byte for each of its edges.
+class ListedNames {
+  public:
+    explicit ListedNames(const Lattice& lattice) : adjacency_(*lattice.adjacency()), rank_(adjacency_.to.size()) {
+        // Nodes are met in their order, so each finds itself next in the list of a larger one.
+        std::vector<std::uint32_t> next(adjacency_.first.begin(), adjacency_.first.end() - 1);
+        for (std::uint32_t u = 0; u < next.size() && has_all_; ++u)
+            for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e) {
+                const std::uint32_t v = adjacency_.to[e], rank = e - adjacency_.first[u];
+                if (v < u) continue;
+                const std::uint32_t back = next[v]++;
+                has_all_ = v != u && rank < kRanks && back < adjacency_.first[v + 1] && adjacency_.to[back] == u &&
+                           adjacency_.length5[back] == adjacency_.length5[e] &&
+                           (rank == 0 || adjacency_.to[e - 1] <= v);
+                if (!has_all_) return;
+                rank_[e] = rank_[back] = std::uint8_t(rank);
+            }
+        for (std::uint32_t u = 0; u < next.size(); ++u) {
+            // What is left over in a list has no edge that leads back.
+            const std::uint32_t smaller = next[u];
+            has_all_ = has_all_ && (smaller == adjacency_.first[u + 1] || adjacency_.to[smaller] > u);
+        }
+    }
+    /// False where some edge leads one way alone, a list is out of order, or a node has more than 256 edges.
+    bool has_all() const { return has_all_; }
+    std::uint64_t of(std::uint32_t from, std::uint32_t to, int edge) const {
+        return std::uint64_t(std::min(from, to)) * kRanks + rank_[std::size_t(edge)];
+    }
+    std::uint32_t smaller_node(std::uint64_t name) const { return std::uint32_t(name / kRanks); }
+    std::uint32_t larger_node(std::uint64_t name) const { return adjacency_.to[place(name)]; }
+    std::uint32_t length5(std::uint64_t name) const { return adjacency_.length5[place(name)]; }
+
+  private:
+    static constexpr std::uint32_t kRanks = 256;
+    std::size_t place(std::uint64_t name) const { return adjacency_.first[name / kRanks] + name % kRanks; }
+
+    const Adjacency& adjacency_;
+    std::vector<std::uint8_t> rank_;  // of the larger node, from the smaller one
+    bool has_all_ = true;
+};
+
+}  // namespace dstylize
