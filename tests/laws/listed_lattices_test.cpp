@@ -163,9 +163,8 @@ TEST(ListedLattices, OneWayEdgesAndListsInAnyOrderAreWalkedAsTheyAre) {
         const test::RandomGraph g = test::random_graph_on(lattice, seed);
         for (const Metric metric : test::kMetrics) {
             const PlanRequest request{g.graph, g.sources, metric, 500};
-            ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(tile_planner().plan(request, {}),
-                                                           reference_planner().plan(request, {}),
-                                                           std::to_string(seed)));
+            ASSERT_NO_FATAL_FAILURE(test::expect_same_plan(
+                tile_planner().plan(request, {}), reference_planner().plan(request, {}), std::to_string(seed)));
         }
     }
 }
