@@ -102,6 +102,7 @@ Times measured(const Row& row, double mega) {
     const WeightedLattice g = graph_of(row, mega);
     const std::size_t nodes = g.weight.size();
     const NodeId source = map_source(g.lattice);
+    const Source sources[] = {{source, 0, 0}};
     Times t;
     const bool by_tiles = row.metric != Metric::blend;
     const int times = by_tiles ? 3 : 1;  // the rest goes to the buckets, and takes long
@@ -112,7 +113,7 @@ Times measured(const Row& row, double mega) {
     };
     check(planned(tile_planner(), g, row.metric, 2, times, t.tiles_by_two).label, "two threads");
     if (by_tiles) check(planned(bucket_planner(), g, row.metric, 1, 1, t.bucket).label, "buckets");
-    check(timed(nodes, 1, t.heap, [&] { return heap_labels(g, source, row.metric); }), "the heap");
+    check(timed(nodes, 1, t.heap, [&] { return heap_labels(g, sources, row.metric); }), "the heap");
     if (row.metric != Metric::sum || row.edges != Edges::weights8) return t;
     if (boost_is_here()) check(timed(nodes, 1, t.boost, [&] { return boost_labels(g, source); }), "Boost");
     if (row.map != "maze") timed(nodes, 1, t.scissors, [&] { return scissors_map(g, source), 0; });
@@ -302,7 +303,8 @@ void write_map(const std::string& path, const std::string& kind, double mega) {
     const NodeId source = map_source(g.lattice);
     write_bytes(g, path);
     std::ofstream file(path + ".sums", std::ios::binary);
-    const LabelColumn labels = heap_labels(g, source, Metric::sum);
+    const Source sources[] = {{source, 0, 0}};
+    const LabelColumn labels = heap_labels(g, sources, Metric::sum);
     for (std::size_t n = 0; n < labels.size(); ++n) {
         const auto sum = std::uint32_t(labels[n].sum);
         file.write(reinterpret_cast<const char*>(&sum), sizeof sum);
