@@ -111,6 +111,7 @@ class Listed {
 struct SumRule {
     using Label = std::uint32_t;
     static constexpr Label kFar = ~Label{0};
+    static Label started(std::uint64_t start) { return Label(start); }
     static Label extended(Label before, std::uint32_t, std::uint32_t cost) { return before + cost; }
     static std::uint32_t sum(Label l) { return l; }
 };
@@ -118,6 +119,7 @@ struct SumRule {
 struct MaxSumRule {
     using Label = std::uint64_t;  // highest edge, then sum
     static constexpr Label kFar = ~Label{0};
+    static Label started(std::uint64_t start) { return start; }
     static Label extended(Label before, std::uint32_t height, std::uint32_t cost) {
         return std::max(before >> 32, std::uint64_t(height)) << 32 | (std::uint32_t(before) + cost);
     }
@@ -133,6 +135,7 @@ struct BlendRule {
     };
     static constexpr Label kFar{~std::uint64_t{0}, ~0u, ~0u};
     std::uint64_t factor;
+    static Label started(std::uint64_t start) { return {start, 0, std::uint32_t(start)}; }
     Label extended(Label before, std::uint32_t height, std::uint32_t cost) const {
         const std::uint32_t highest = std::max(before.highest, height), sum = before.sum + cost;
         return {factor * highest + sum, highest, sum};
@@ -150,28 +153,47 @@ struct Entry {
 template <class T>
 using MinHeap = std::priority_queue<T, std::vector<T>, std::greater<>>;
 
+template <class Rule, class Edges>
+LabelColumn wide_column_of(const std::vector<typename Rule::Label>& label, const Edges& edges, std::size_t count) {
+    std::vector<PathLabel> wide(count);
+    for (std::uint32_t n = 0; n < count; ++n) {
+        const auto& l = label[edges.place(n)];
+        if (!(l == Rule::kFar)) wide[n] = {Rule::highest(l), Rule::sum(l)};
+    }
+    return wide;
+}
+
 /// The labels of a peer in lattice order, as a plan has them.
 template <class Rule, class Edges>
 LabelColumn column_of(const std::vector<typename Rule::Label>& label, const Edges& edges, std::size_t count) {
     constexpr bool kHasHighest = requires(typename Rule::Label l) { Rule::highest(l); };
     UnsetVector<std::uint32_t> sum(count);
     UnsetVector<std::uint16_t> highest(kHasHighest ? count : 0);
+    bool fits = true;
     for (std::uint32_t n = 0; n < count; ++n) {
         const auto& l = label[edges.place(n)];
         sum[n] = Rule::sum(l);
-        if constexpr (kHasHighest) highest[n] = std::uint16_t(Rule::highest(l));
+        if constexpr (kHasHighest) {
+            highest[n] = std::uint16_t(Rule::highest(l));
+            fits = fits && (highest[n] == Rule::highest(l) || l == Rule::kFar);
+        }
     }
+    if constexpr (kHasHighest)
+        if (!fits) return wide_column_of<Rule>(label, edges, count);
     return {std::move(sum), std::move(highest)};
 }
 
 template <class Rule, class Edges>
-LabelColumn dijkstra(const WeightedLattice& g, NodeId source, const Rule& rule) {
+LabelColumn dijkstra(const WeightedLattice& g, std::span<const Source> sources, const Rule& rule) {
     const Edges edges(g);
     using Label = typename Rule::Label;
     std::vector<Label> best(edges.nodes(), Rule::kFar);
     MinHeap<Entry<Label>> heap;
-    best[edges.place(index(source))] = Label{};
-    heap.push({Label{}, edges.place(index(source))});
+    for (const Source& s : sources) {
+        const std::uint32_t u = edges.place(index(s.node));
+        best[u] = std::min(best[u], Rule::started(s.start));
+        heap.push({best[u], u});
+    }
     while (!heap.empty()) {
         const Label label = heap.top().label;
         const std::uint32_t u = heap.top().node;
@@ -205,7 +227,7 @@ struct Leaving {
 
 /// Prim: the first edge that leaves the tree comes next. A rim keeps the order of nodes.
 template <class Edges>
-LabelColumn prim(const WeightedLattice& g, NodeId source) {
+LabelColumn prim(const WeightedLattice& g, std::span<const Source> sources) {
     const Edges edges(g);
     using Rule = SumRule;
     std::vector<Rule::Label> label(edges.nodes(), Rule::kFar);
@@ -220,7 +242,7 @@ LabelColumn prim(const WeightedLattice& g, NodeId source) {
             heap.push({key, std::max(u, v), length5 << 1 | std::uint32_t(v > u)});
         });
     };
-    settle(edges.place(index(source)), 0);
+    for (const Source& s : sources) settle(edges.place(index(s.node)), Rule::started(s.start));
     while (!heap.empty()) {
         const Leaving e = heap.top();
         heap.pop();
@@ -230,23 +252,25 @@ LabelColumn prim(const WeightedLattice& g, NodeId source) {
 }
 
 template <class Edges>
-LabelColumn labels(const WeightedLattice& g, NodeId source, Metric metric, std::uint32_t blend_factor) {
+LabelColumn labels(const WeightedLattice& g, std::span<const Source> sources, Metric metric,
+                   std::uint32_t blend_factor) {
     switch (metric) {
-        case Metric::sum: return dijkstra<SumRule, Edges>(g, source, {});
-        case Metric::max_sum: return dijkstra<MaxSumRule, Edges>(g, source, {});
-        case Metric::blend: return dijkstra<BlendRule, Edges>(g, source, {blend_factor});
-        case Metric::lexicographic: return prim<Edges>(g, source);
+        case Metric::sum: return dijkstra<SumRule, Edges>(g, sources, {});
+        case Metric::max_sum: return dijkstra<MaxSumRule, Edges>(g, sources, {});
+        case Metric::blend: return dijkstra<BlendRule, Edges>(g, sources, {blend_factor});
+        case Metric::lexicographic: return prim<Edges>(g, sources);
     }
     return {};
 }
 
 }  // namespace
 
-LabelColumn heap_labels(const WeightedLattice& graph, NodeId source, Metric metric, std::uint32_t blend_factor) {
-    if (graph.lattice.adjacency()) return labels<Listed>(graph, source, metric, blend_factor);
-    if (graph.height_plane.empty()) return labels<RimmedWeights>(graph, source, metric, blend_factor);
-    if (graph.lattice.steps().size() == 8) return labels<GatheredPlanes<8>>(graph, source, metric, blend_factor);
-    return labels<GatheredPlanes<16>>(graph, source, metric, blend_factor);
+LabelColumn heap_labels(const WeightedLattice& graph, std::span<const Source> sources, Metric metric,
+                        std::uint32_t blend_factor) {
+    if (graph.lattice.adjacency()) return labels<Listed>(graph, sources, metric, blend_factor);
+    if (graph.height_plane.empty()) return labels<RimmedWeights>(graph, sources, metric, blend_factor);
+    if (graph.lattice.steps().size() == 8) return labels<GatheredPlanes<8>>(graph, sources, metric, blend_factor);
+    return labels<GatheredPlanes<16>>(graph, sources, metric, blend_factor);
 }
 
 std::vector<NodeId> heap_stipples(const GraphDistanceRequest& request) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "graph/graph_distance.h"
@@ -11,8 +12,9 @@ namespace dstylize {
 /// Dijkstra with the textbook's binary heap (entries that were overtaken stay and are skipped), tuned: the
 /// metric and where heights come from are fixed when compiled, a rim of walls saves the bounds checks,
 /// labels are as narrow as they can be. 8 neighbours by node weights, 8 or 16 by height planes, or listed
-/// edges. Sums must fit 32 bits.
-LabelColumn heap_labels(const WeightedLattice& graph, NodeId source, Metric metric, std::uint32_t blend_factor = 5000);
+/// edges. Sources are distinct nodes; sums must fit 32 bits.
+LabelColumn heap_labels(const WeightedLattice& graph, std::span<const Source> sources, Metric metric,
+                        std::uint32_t blend_factor = 5000);
 
 /// The stippling flood with one heap.
 std::vector<NodeId> heap_stipples(const GraphDistanceRequest& request);

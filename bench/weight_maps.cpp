@@ -36,12 +36,38 @@ Grid<float> sample_luma() {
     return luma_plane(PictureCodec().decode(read_file(path, kMostBytes), path).picture);
 }
 
-std::vector<NodeWeight> portrait(const Grid<float>& luma, Extent extent) {
+/// `power` makes what is dark cheap beside the rest, for which 255 levels are too few.
+std::vector<NodeWeight> portrait(const Grid<float>& luma, Extent extent, int levels, int power) {
     const Grid<float> large = resized(luma, extent);
     std::vector<NodeWeight> weight(large.size());
-    for (std::size_t n = 0; n < weight.size(); ++n)
-        weight[n] = NodeWeight(1 + std::lround(254 * std::clamp(large[n], 0.f, 1.f)));
+    for (std::size_t n = 0; n < weight.size(); ++n) {
+        const float v = std::clamp(large[n], 0.f, 1.f);
+        weight[n] = NodeWeight(1 + std::lround(float(levels - 1) * (power == 1 ? v : std::pow(v, float(power)))));
+    }
     return weight;
+}
+
+void cut_disc(WeightedLattice& g, int x, int y, int radius) {
+    const Extent e = g.lattice.extent();
+    for (int j = std::max(0, y - radius); j <= std::min(e.y - 1, y + radius); ++j)
+        for (int i = std::max(0, x - radius); i <= std::min(e.x - 1, x + radius); ++i)
+            if ((i - x) * (i - x) + (j - y) * (j - y) <= radius * radius)
+                g.weight[index(g.lattice.at(i, j))] = kImpassable;
+}
+
+/// A disc in each cell, but in the one where paths start.
+void cut_discs(WeightedLattice& g) {
+    constexpr int kDiscCell = 64, kLeastRadius = 8, kLargestRadius = 31;
+    const Extent e = g.lattice.extent();
+    const int source_i = g.lattice.column(map_source(g.lattice)), source_j = g.lattice.row(map_source(g.lattice));
+    for (int j = 0; j < e.y; j += kDiscCell)
+        for (int i = 0; i < e.x; i += kDiscCell) {
+            if (i == source_i / kDiscCell * kDiscCell && j == source_j / kDiscCell * kDiscCell) continue;
+            const std::uint32_t h = hash(std::uint32_t(i), std::uint32_t(j), 5);
+            const int radius = kLeastRadius + int(h % (kLargestRadius - kLeastRadius + 1));
+            const int spare = kDiscCell - 2 * radius;
+            cut_disc(g, i + radius + int(h >> 8) % spare, j + radius + int(h >> 16) % spare, radius);
+        }
 }
 
 }  // namespace
@@ -52,8 +78,10 @@ WeightedLattice weight_map(const std::string& kind, double mega, Neighbourhood n
     const Extent extent{int(luma.extent().x * scale), int(luma.extent().y * scale)};
     WeightedLattice g;
     g.lattice = Lattice(extent, neighbourhood);
-    if (kind == "portrait") {
-        g.weight = portrait(luma, extent);
+    if (kind == "portrait" || kind == "discs" || kind.ends_with(" levels")) {
+        const bool more = kind.ends_with(" levels");
+        g.weight = portrait(luma, extent, more ? std::stoi(kind) : 255, more ? 4 : 1);
+        if (kind == "discs") cut_discs(g);
         return g;
     }
     g.weight.reserve(extent.count());
