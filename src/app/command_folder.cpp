@@ -2,9 +2,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <map>
 
 #include "app/commands.h"
 #include "app/progress.h"
+#include "app/report.h"
 #include "app/requests.h"
 #include "pipeline/batch_report.h"
 #include "pipeline/shard_reports.h"
@@ -23,6 +26,34 @@ std::filesystem::path write_reports(const BatchRequest& batch, const BatchReport
     write_batch_reports(report, batch.input, batch.output);
     return batch.output / "index.html";
 }
+
+/// What --verbose says of each picture, from what the batch tells.
+class VerboseFolder {
+  public:
+    explicit VerboseFolder(const BatchRequest& batch) : batch_(batch) {}
+
+    void hear(const BatchProgress& now) {
+        if (!now.at_work || now.step.empty()) return;
+        if (now.step == "reading") at_work_.erase(now.at_work);  // also of one that is read once more
+        at_work_.try_emplace(now.at_work, false).first->second.begin(now.step, 0);
+    }
+
+    /// Of a picture that has been finished; nothing of one that failed, which has a line of its own.
+    std::string said(const BatchProgress& now) {
+        const auto times = at_work_.extract(now.picture);
+        if (now.drawn) {
+            times.mapped().finish();
+            return brief_report(*now.drawn, times.mapped());
+        }
+        if (now.picture->state == State::failed) return {};
+        return fmt::format("{}: {}\n", (batch_.input / now.picture->input).string(),
+                           now.picture->state == State::up_to_date ? "up to date" : "to be drawn");
+    }
+
+  private:
+    const BatchRequest& batch_;
+    std::map<const BatchPicture*, Progress> at_work_;
+};
 
 BatchReport draw_batch(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt) {
     const bool dry_run = batch.each.dry_run;
@@ -51,10 +82,13 @@ std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Argum
     Work work;
     work.stop = interrupt.token();
     work.threads = arguments.threads;
+    VerboseFolder verbose(batch);
     BatchReport report = run_batch(
         batch,
         [&](const BatchProgress& now) {
             interrupt.set_writing(now.writing);
+            if (arguments.verbose) verbose.hear(now);
+            if (now.at_work) return;
             if (now.picture || now.finished == 0)
                 progress.begin(fmt::format("{} of {} pictures", now.finished, now.total),
                                double(now.finished) / double(std::max<std::size_t>(1, now.total)));
@@ -64,6 +98,7 @@ std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Argum
                     print_error({ErrorCode::failed, (batch.input / now.picture->input).string(), now.picture->problem,
                                  now.picture->remedy});
                 });
+            if (arguments.verbose) progress.beside([&] { std::fputs(verbose.said(now).c_str(), stderr); });
             if (tell) progress.beside([&] { tell(*now.picture); });
         },
         work);

@@ -163,7 +163,7 @@ class Batch {
         const std::size_t workers = std::max<std::size_t>(1, std::min({threads, most, report_.pictures.size()}));
         std::vector<std::size_t> all(report_.pictures.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-        tell(nullptr);
+        tell(progress());
         draw(all, workers, int(std::max<std::size_t>(1, threads / workers)));
         if (!postponed_.empty()) draw(std::exchange(postponed_, {}), 1, int(threads));
     }
@@ -191,11 +191,18 @@ class Batch {
         if (fault) std::rethrow_exception(fault);
     }
 
+    struct Made {
+        State state = State::failed;
+        std::optional<RunReport> how;  ///< of what has been drawn
+    };
+
     /// One picture, whatever becomes of it. What concerns the whole batch is thrown.
     void finish(std::size_t index, std::size_t workers, int threads, PictureCodec& codec) {
         BatchPicture& picture = report_.pictures[index];
+        Made made;
         try {
-            picture.state = drawn(picture, workers, threads, codec);
+            made = drawn(picture, workers, threads, codec);
+            picture.state = made.state;
         } catch (const Error& error) {
             if (error.code() == ErrorCode::cancelled) throw;
             // Reading, too, can fail for want of memory.
@@ -214,10 +221,13 @@ class Batch {
         }
         const std::scoped_lock lock(mutex_);
         ++finished_;
-        tell(&picture);
+        BatchProgress now = progress();
+        now.picture = &picture;
+        now.drawn = made.how ? &*made.how : nullptr;
+        tell(now);
     }
 
-    State drawn(const BatchPicture& picture, std::size_t workers, int threads, PictureCodec& codec) {
+    Made drawn(const BatchPicture& picture, std::size_t workers, int threads, PictureCodec& codec) {
         work_.check();
         RunRequest run_request = request_.each;
         run_request.max_memory_bytes /= workers;
@@ -228,8 +238,8 @@ class Batch {
         std::vector<std::size_t> stale;
         for (std::size_t r = 0; r < picture.results.size(); ++r)
             if (!is_up_to_date(picture.results[r], hash, keys_[r])) stale.push_back(r);
-        if (stale.empty()) return State::up_to_date;
-        if (request_.each.dry_run) return State::done;
+        if (stale.empty()) return {State::up_to_date, {}};
+        if (request_.each.dry_run) return {State::done, {}};
         for (const std::size_t r : stale) {
             const fs::path target = request_.output / picture.results[r];
             check_inside(request_.output, target);
@@ -239,12 +249,12 @@ class Batch {
         }
         run_request.force = true;
         run_request.thumbnail_px = kThumbnail_px;
-        const RunReport made_now = run_one(run_request, threads, codec);
+        RunReport made_now = run_one(picture, run_request, threads, codec);
         write_thumbnail(thumbnail_before(picture), made_now.small_input, codec);
         write_thumbnail(thumbnail_after(picture), made_now.small_drawing, codec);
         for (std::size_t k = 0; k < stale.size(); ++k)
             ledger_->add(picture.results[stale[k]], {hash, keys_[stale[k]], made_now.outputs[k].bytes});
-        return State::done;
+        return {State::done, std::move(made_now)};
     }
 
     /// Judged by its size: if it is still what we made, we may replace it, with our mark in it or without.
@@ -269,31 +279,41 @@ class Batch {
         write_file_atomically(path, picture_file(small, format_named("jpg"), options, codec, path.string()));
     }
 
-    RunReport run_one(const RunRequest& run_request, int threads, PictureCodec& codec) {
+    RunReport run_one(const BatchPicture& picture, const RunRequest& run_request, int threads, PictureCodec& codec) {
         bool writing = false;
         Work work;
         work.stop = work_.stop;
         work.threads = threads;
-        work.progress = [&](std::string_view step, double) {
-            if ((step == "writing") != writing) set_writing(writing = !writing);
-        };
+        work.progress = [&](std::string_view step, double) { begin(picture, step, writing); };
         try {
             RunReport report = run(run_request, codec, work);
-            if (writing) set_writing(false);
+            begin(picture, "thumbnails", writing);
             return report;
         } catch (...) {
-            if (writing) set_writing(false);
+            begin(picture, {}, writing);
             throw;
         }
     }
 
-    void set_writing(bool begins) {
+    /// `writing`: whether it was writing its files before this step; then, whether it is.
+    void begin(const BatchPicture& picture, std::string_view step, bool& writing) {
         const std::scoped_lock lock(mutex_);
-        writing_ += begins ? 1 : -1;
-        tell(nullptr);
+        writing_ += int(step == "writing") - int(writing);
+        writing = step == "writing";
+        BatchProgress now = progress();
+        now.at_work = &picture;
+        now.step = step;
+        tell(now);
     }
-    void tell(const BatchPicture* picture) {
-        if (observer_) observer_({finished_, report_.pictures.size(), writing_ > 0, picture});
+    BatchProgress progress() const {
+        BatchProgress now;
+        now.finished = finished_;
+        now.total = report_.pictures.size();
+        now.writing = writing_ > 0;
+        return now;
+    }
+    void tell(const BatchProgress& now) const {
+        if (observer_) observer_(now);
     }
 
     const BatchRequest& request_;

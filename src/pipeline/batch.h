@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/picture_codec.h"
@@ -52,6 +53,9 @@ struct BatchProgress {
     std::size_t finished = 0, total = 0;
     bool writing = false;                   ///< whether some file is just being written
     const BatchPicture* picture = nullptr;  ///< that has just been finished
+    const RunReport* drawn = nullptr;       ///< how, if it has been drawn
+    const BatchPicture* at_work = nullptr;  ///< one that is about to do `step`
+    std::string_view step;                  ///< of run(), or "thumbnails"; empty when it fails
 };
 
 /// Checks what can be checked of a batch before a picture is read, and makes its manifest. Throws as run_batch does.
