@@ -49,6 +49,20 @@ const fs::path& root_of(const BatchRequest& request) {
     return request.leave_out.empty() ? request.output : request.leave_out;
 }
 
+/// However both are named.
+bool lies_in(const fs::path& inner, const fs::path& outer) {
+    std::error_code error;
+    fs::path at = fs::canonical(inner, error);
+    while (!error && at.has_relative_path()) {
+        at = at.parent_path();
+        std::error_code ignored;
+        if (fs::equivalent(at, outer, ignored)) return true;
+    }
+    return false;
+}
+
+/// Results may lie in a folder of the input, which is then left out of it. If they lay around it, a drawing could get
+/// the name of an original.
 void check_folders(const BatchRequest& request) {
     const fs::path& output = root_of(request);
     const std::string name = output.string();
@@ -65,6 +79,9 @@ void check_folders(const BatchRequest& request) {
                     "give a folder for the drawings");
     if (fs::equivalent(request.input, output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is also the input", "give another folder for the drawings");
+    if (lies_in(request.input, output))
+        throw Error(ErrorCode::bad_usage, name, "contains the input, " + request.input.string(),
+                    "give a folder for the drawings that does not; it may lie in the input");
     if (!request.each.outputs.empty() || !request.each.recipe_file.empty())
         throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and -o and --recipe name single files",
                     "give --format for another kind of result");

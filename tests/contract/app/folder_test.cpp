@@ -287,6 +287,27 @@ TEST_F(FolderTest, FollowsNoLinkOutOfTheFolderOfTheDrawings) {
     EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
 }
 
+TEST_F(FolderTest, DrawsIntoNoFolderThatContainsTheInput) {
+    // The drawing of sea/sea/b.png would be sea/b.png, an original.
+    fs::create_directory(folder_ / "photos/sea/sea");
+    write_png(folder_ / "photos/sea/sea/b.png", scene({50, 50}));
+    fs::create_directory_symlink("photos/sea", folder_ / "link");
+    fs::create_directory_symlink("photos", folder_ / "whole");
+    const auto before = results(folder_ / "photos");
+    for (const Words& folders : {Words{"photos/sea", "photos"}, Words{"photos/sea/deep", "photos/"},
+                                 Words{"photos/sea", "whole"}, Words{"link", "photos"}, Words{"photos", "."}})
+        for (const Words& more : {Words{}, Words{"--style", "vine"}, Words{"--dry-run"}}) {
+            Words words{folders[0], folders[1], "--force"};
+            words.insert(words.end(), more.begin(), more.end());
+            expect_error(draw(words), 2, {folders[1] + ": contains the input, " + folders[0]});
+        }
+    expect_error(draw({"sbatch", "photos/sea", "photos", "--nodes", "2"}), 2, {"photos: contains the input"});
+    EXPECT_TRUE(results(folder_ / "photos") == before);
+    EXPECT_FALSE(fs::exists(folder_ / "photos/.dstylize"));
+    expect_done(draw({"photos", "photos2"}));
+    expect_done(draw({"link", "photos3"}));
+}
+
 TEST_F(FolderTest, TellsOfEveryPictureWhenVerbose) {
     write_file(folder_ / "photos/bad.png", std::string_view("no PNG"));
     const Outcome drawn = draw_all({"--verbose", "--threads", "2"});
