@@ -17,6 +17,13 @@ namespace {
 
 using State = BatchPicture::State;
 
+/// A shard that was stopped has none, which tells that it must be run again; and what has done nothing leaves those of
+/// the run before.
+bool has_reports(const BatchRequest& batch, const BatchReport& report) {
+    const std::size_t not_reached = report.count(State::not_reached);
+    return !batch.each.dry_run && (not_reached == 0 || (!batch.shard && not_reached < report.pictures.size()));
+}
+
 /// Writes the reports, and returns the one that a person should see.
 std::filesystem::path write_reports(const BatchRequest& batch, const BatchReport& report) {
     if (batch.shard) {
@@ -60,8 +67,13 @@ BatchReport draw_batch(const BatchRequest& batch, const Arguments& arguments, In
     if (batch.shard && !dry_run) remove_shard_report(batch.output, *batch.shard);
     auto [report, seconds] = run_folder(batch, arguments, interrupt);
     std::string text = folder_summary(report, dry_run);
-    if (!dry_run) text += fmt::format("in {:.1f} s; see {}\n", seconds, write_reports(batch, report).string());
+    if (has_reports(batch, report)) {
+        interrupt.set_writing(true);
+        text += fmt::format("in {:.1f} s; see {}\n", seconds, write_reports(batch, report).string());
+        interrupt.set_writing(false);
+    }
     if (!arguments.json && (!arguments.quiet || dry_run)) print(text);
+    interrupt.check();
     return std::move(report);
 }
 
@@ -71,9 +83,10 @@ std::string folder_summary(const BatchReport& report, bool dry_run) {
     std::string out;
     for (const BatchPicture& picture : report.pictures)
         if (picture.state == State::failed) out += fmt::format("failed       {}\n", picture.input);
-    return out + fmt::format("{:<12} {:>6}\nup to date   {:>6}\nfailed       {:>6}\n",
-                             dry_run ? "to be drawn" : "drawn", report.count(State::done),
-                             report.count(State::up_to_date), report.count(State::failed));
+    out += fmt::format("{:<12} {:>6}\nup to date   {:>6}\nfailed       {:>6}\n", dry_run ? "to be drawn" : "drawn",
+                       report.count(State::done), report.count(State::up_to_date), report.count(State::failed));
+    const std::size_t not_reached = report.count(State::not_reached);
+    return not_reached > 0 ? out + fmt::format("not reached  {:>6}\n", not_reached) : out;
 }
 
 std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Arguments& arguments, Interrupt& interrupt,

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <exception>
 #include <thread>
+#include <tuple>
 
 #include "formats/files.h"
 #include "formats/format.h"
@@ -160,7 +161,7 @@ class Batch {
             ledger_->take_over_shards();
         }
         draw_all();
-        if (!request_.each.dry_run) ledger_->compact();
+        if (!request_.each.dry_run && !work_.stop.stop_requested()) ledger_->compact();
         return std::move(report_);
     }
 
@@ -168,7 +169,7 @@ class Batch {
     void choose(const std::vector<std::string>& pictures, const ResultNames& names) {
         for (const std::size_t k : shard_entries(request_.shard.value_or(Shard()), pictures.size()))
             if (!request_.only || request_.only->contains(pictures[k]))
-                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::failed, {}, {}});
+                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::not_reached, {}, {}});
     }
 
     /// First all, several at a time; then those that need more memory than their share, one by one.
@@ -193,7 +194,8 @@ class Batch {
                 CodecOptions share = request_.codec;
                 share.max_memory_bytes /= workers;
                 PictureCodec codec(share);
-                for (std::size_t k; (k = next++) < pictures.size();) finish(pictures[k], workers, threads, codec);
+                for (std::size_t k; !work_.stop.stop_requested() && (k = next++) < pictures.size();)
+                    finish(pictures[k], workers, threads, codec);
             } catch (...) {
                 const std::scoped_lock lock(mutex_);
                 if (!fault) fault = std::current_exception();
@@ -208,20 +210,14 @@ class Batch {
         if (fault) std::rethrow_exception(fault);
     }
 
-    struct Made {
-        State state = State::failed;
-        std::optional<RunReport> how;  ///< of what has been drawn
-    };
-
     /// One picture, whatever becomes of it. What concerns the whole batch is thrown.
     void finish(std::size_t index, std::size_t workers, int threads, PictureCodec& codec) {
         BatchPicture& picture = report_.pictures[index];
-        Made made;
+        std::optional<RunReport> how;
         try {
-            made = drawn(picture, workers, threads, codec);
-            picture.state = made.state;
+            std::tie(picture.state, how) = drawn(picture, workers, threads, codec);
         } catch (const Error& error) {
-            if (error.code() == ErrorCode::cancelled) throw;
+            if (error.code() == ErrorCode::cancelled) return;
             // Reading, too, can fail for want of memory.
             const bool may_need_more = error.code() == ErrorCode::bad_usage || error.code() == ErrorCode::cannot_read;
             if (may_need_more && workers > 1) {
@@ -229,10 +225,12 @@ class Batch {
                 postponed_.push_back(index);
                 return;
             }
+            picture.state = State::failed;
             const bool is_of_input = error.file().empty() || error.file() == request_.input / picture.input;
             picture.problem = is_of_input ? error.problem() : fmt::format("{}: {}", error.file(), error.problem());
             picture.remedy = error.remedy();
         } catch (const std::bad_alloc&) {
+            picture.state = State::failed;
             picture.problem = "out of memory";
             picture.remedy = "ask for less --detail or a smaller --size";
         }
@@ -240,12 +238,13 @@ class Batch {
         ++finished_;
         BatchProgress now = progress();
         now.picture = &picture;
-        now.drawn = made.how ? &*made.how : nullptr;
+        now.drawn = how ? &*how : nullptr;
         tell(now);
     }
 
-    Made drawn(const BatchPicture& picture, std::size_t workers, int threads, PictureCodec& codec) {
-        work_.check();
+    /// What became of it, and how where it was drawn.
+    std::pair<State, std::optional<RunReport>> drawn(const BatchPicture& picture, std::size_t workers, int threads,
+                                                     PictureCodec& codec) {
         RunRequest run_request = request_.each;
         run_request.max_memory_bytes /= workers;
         run_request.input = request_.input / picture.input;

@@ -32,10 +32,10 @@ struct BatchRequest {
 };
 
 struct BatchPicture {
-    enum class State { done, up_to_date, failed };
+    enum class State { done, up_to_date, failed, not_reached };
     std::string input;                 ///< path from the input folder
     std::vector<std::string> results;  ///< paths from the output folder
-    State state = State::failed;
+    State state = State::not_reached;
     std::string problem, remedy;  ///< of what failed
 };
 
@@ -67,8 +67,9 @@ Manifest batch_pictures(const BatchRequest& request);
 /// `each.max_memory_bytes`; each may need its share of them, and those that need more are drawn alone afterwards. The
 /// bytes of a result depend on none of this, nor on what is drawn elsewhere. A shard keeps a ledger of its own, so that
 /// several can run on one folder of results at a time. In a dry run nothing is written, and pictures that would be
-/// drawn are `done`. Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every
-/// picture: a style, an auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write); Error(cancelled).
+/// drawn are `done`. When it is asked to stop, pictures that it is at are given up, and are `not_reached` as those
+/// after them. Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every picture: a
+/// style, an auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write).
 BatchReport run_batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer,
                       const Work& work);
 
