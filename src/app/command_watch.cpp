@@ -50,11 +50,16 @@ class Watch {
                 print(fmt::format("drawn        {}\n", picture.results.front()));
         };
         BatchReport now = run_folder(request_, arguments, interrupt, tell).first;
-        for (BatchPicture& picture : now.pictures) all_.insert_or_assign(picture.input, std::move(picture));
-        if (all_.empty()) return;
+        for (BatchPicture& picture : now.pictures)
+            if (picture.state != BatchPicture::State::not_reached)
+                all_.insert_or_assign(picture.input, std::move(picture));
+        if (all_.empty()) return interrupt.check();
         now.pictures.clear();
         for (const auto& [input, picture] : all_) now.pictures.push_back(picture);
+        interrupt.set_writing(true);
         write_batch_reports(now, request_.input, request_.output);
+        interrupt.set_writing(false);
+        interrupt.check();
     }
 
   private:
@@ -69,8 +74,6 @@ ExitCode watch_folder(const Arguments& arguments) {
     const std::vector<BatchRequest> requests = folder_requests(arguments);
     const BatchRequest& first = requests.front();
     Interrupt interrupt;
-    Work work;
-    work.stop = interrupt.token();
     std::vector<Watch> watches(requests.begin(), requests.end());
     for (Watch& watch : watches) watch.draw({}, arguments, interrupt);  // what is wrong with all is said at once
     if (!arguments.quiet) print(fmt::format("watching {}; an interrupt (Ctrl-C) ends it\n", first.input.string()));
@@ -94,7 +97,7 @@ ExitCode watch_folder(const Arguments& arguments) {
             problem = error.what();
         }
         pause(std::max<Clock::duration>(kPause, kShareOfLooking * looking), interrupt.token());
-        work.check();
+        interrupt.check();
     }
 }
 

@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include "core/work.h"
+
 namespace dstylize::app {
 namespace {
 
@@ -29,6 +31,12 @@ Interrupt::Interrupt() {
 Interrupt::~Interrupt() {
     watcher_.request_stop();
     pthread_kill(watcher_.native_handle(), SIGUSR1);
+}
+
+void Interrupt::check() const {
+    Work work;
+    work.stop = token();
+    work.check();
 }
 
 void Interrupt::watch(const std::stop_token& done) {

@@ -18,7 +18,8 @@ class Interrupt {
     Interrupt& operator=(const Interrupt&) = delete;
 
     std::stop_token token() const { return stop_.get_token(); }
-    bool requested() const { return stop_.stop_requested(); }
+    /// Throws Error(cancelled) once a stop was requested.
+    void check() const;
     /// While set, a stop waits for the run to come to an end by itself.
     void set_writing(bool writing) { writing_ = writing; }
 

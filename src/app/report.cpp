@@ -24,6 +24,19 @@ const char* kept_from(DecoderConfinement held) {
     return held.files ? "all files" : "nothing but memory over its limit: this kernel confines no process";
 }
 
+std::string input_line(const RunReport& report) {
+    return fmt::format("{}: {} x {} pixels, style {}, seed {}, {} x {} nodes\n", report.input, report.picture.x,
+                       report.picture.y, report.style, report.seed, report.lattice.x, report.lattice.y);
+}
+
+std::string output_lines(const RunReport& report) {
+    std::string out;
+    for (const OutputReport& output : report.outputs)
+        out += fmt::format("{}: {}, {} x {}, {} bytes\n", output.path, output.format, output.size_px.x,
+                           output.size_px.y, output.bytes);
+    return out;
+}
+
 }  // namespace
 
 std::string json_report(const RunReport& report, const Progress& progress) {
@@ -65,9 +78,7 @@ std::string json_report(const Error& error, int exit_code) {
 }
 
 std::string verbose_report(const RunReport& report, const Progress& progress) {
-    std::string out =
-        fmt::format("{}: {} x {} pixels, style {}, seed {}, {} x {} nodes\n", report.input, report.picture.x,
-                    report.picture.y, report.style, report.seed, report.lattice.x, report.lattice.y);
+    std::string out = input_line(report);
     for (const auto& [step, seconds] : progress.steps()) out += fmt::format("  {:<32} {:7.3f} s\n", step, seconds);
     out += fmt::format("  {:<32} {:7.3f} s\n", "all", progress.seconds());
     if (report.decoder) out += fmt::format("  {:<32} {}\n", "the decoder was kept from", kept_from(*report.decoder));
@@ -75,10 +86,19 @@ std::string verbose_report(const RunReport& report, const Progress& progress) {
     if (report.unreached > 0) out += fmt::format("  {:<32} {:7} endpoints\n", "not reached", report.unreached);
     if (report.nodes > 0)
         out += fmt::format("  {:<32} {:7} nodes in {} strokes\n", "drawn", report.nodes, report.strokes);
-    for (const OutputReport& output : report.outputs)
-        out += fmt::format("{}: {}, {} x {}, {} bytes\n", output.path, output.format, output.size_px.x,
-                           output.size_px.y, output.bytes);
-    return out;
+    return out + output_lines(report);
+}
+
+std::string brief_report(const RunReport& report, const Progress& progress) {
+    std::string out = input_line(report) + " ";
+    for (const auto& [step, seconds] : progress.steps()) out += fmt::format(" {} {:.3f},", step, seconds);
+    out += fmt::format(" all {:.3f} s\n ", progress.seconds());
+    for (const auto& [stage, count] : report.endpoints) out += fmt::format(" {} {} endpoints,", stage, count);
+    if (report.unreached > 0) out += fmt::format(" not reached {} endpoints,", report.unreached);
+    if (report.nodes > 0) out += fmt::format(" drawn {} nodes in {} strokes,", report.nodes, report.strokes);
+    if (report.decoder) out += fmt::format(" the decoder was kept from {},", kept_from(*report.decoder));
+    out.back() = '\n';
+    return out + output_lines(report);
 }
 
 std::string dry_run_report(const RunReport& report) {

@@ -14,6 +14,9 @@ std::string json_report(const Error& error, int exit_code);
 /// What --verbose says: times and counts, a line for each.
 std::string verbose_report(const RunReport& report, const Progress& progress);
 
+/// What --verbose says of a picture of a folder that was drawn: the same in a few lines.
+std::string brief_report(const RunReport& report, const Progress& progress);
+
 /// What --dry-run says.
 std::string dry_run_report(const RunReport& report);
 

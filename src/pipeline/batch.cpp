@@ -8,6 +8,7 @@
 #include <atomic>
 #include <exception>
 #include <thread>
+#include <tuple>
 
 #include "formats/files.h"
 #include "formats/format.h"
@@ -49,6 +50,20 @@ const fs::path& root_of(const BatchRequest& request) {
     return request.leave_out.empty() ? request.output : request.leave_out;
 }
 
+/// However both are named.
+bool lies_in(const fs::path& inner, const fs::path& outer) {
+    std::error_code error;
+    fs::path at = fs::canonical(inner, error);
+    while (!error && at.has_relative_path()) {
+        at = at.parent_path();
+        std::error_code ignored;
+        if (fs::equivalent(at, outer, ignored)) return true;
+    }
+    return false;
+}
+
+/// Results may lie in a folder of the input, which is then left out of it. If they lay around it, a drawing could get
+/// the name of an original.
 void check_folders(const BatchRequest& request) {
     const fs::path& output = root_of(request);
     const std::string name = output.string();
@@ -65,6 +80,9 @@ void check_folders(const BatchRequest& request) {
                     "give a folder for the drawings");
     if (fs::equivalent(request.input, output, ignored))
         throw Error(ErrorCode::bad_usage, name, "is also the input", "give another folder for the drawings");
+    if (lies_in(request.input, output))
+        throw Error(ErrorCode::bad_usage, name, "contains the input, " + request.input.string(),
+                    "give a folder for the drawings that does not; it may lie in the input");
     if (!request.each.outputs.empty() || !request.each.recipe_file.empty())
         throw Error(ErrorCode::bad_usage, request.input.string(), "is a folder, and -o and --recipe name single files",
                     "give --format for another kind of result");
@@ -143,7 +161,7 @@ class Batch {
             ledger_->take_over_shards();
         }
         draw_all();
-        if (!request_.each.dry_run) ledger_->compact();
+        if (!request_.each.dry_run && !work_.stop.stop_requested()) ledger_->compact();
         return std::move(report_);
     }
 
@@ -151,7 +169,7 @@ class Batch {
     void choose(const std::vector<std::string>& pictures, const ResultNames& names) {
         for (const std::size_t k : shard_entries(request_.shard.value_or(Shard()), pictures.size()))
             if (!request_.only || request_.only->contains(pictures[k]))
-                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::failed, {}, {}});
+                report_.pictures.push_back({pictures[k], names.of(pictures[k]), State::not_reached, {}, {}});
     }
 
     /// First all, several at a time; then those that need more memory than their share, one by one.
@@ -163,7 +181,7 @@ class Batch {
         const std::size_t workers = std::max<std::size_t>(1, std::min({threads, most, report_.pictures.size()}));
         std::vector<std::size_t> all(report_.pictures.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-        tell(nullptr);
+        tell(progress());
         draw(all, workers, int(std::max<std::size_t>(1, threads / workers)));
         if (!postponed_.empty()) draw(std::exchange(postponed_, {}), 1, int(threads));
     }
@@ -176,7 +194,8 @@ class Batch {
                 CodecOptions share = request_.codec;
                 share.max_memory_bytes /= workers;
                 PictureCodec codec(share);
-                for (std::size_t k; (k = next++) < pictures.size();) finish(pictures[k], workers, threads, codec);
+                for (std::size_t k; !work_.stop.stop_requested() && (k = next++) < pictures.size();)
+                    finish(pictures[k], workers, threads, codec);
             } catch (...) {
                 const std::scoped_lock lock(mutex_);
                 if (!fault) fault = std::current_exception();
@@ -194,10 +213,11 @@ class Batch {
     /// One picture, whatever becomes of it. What concerns the whole batch is thrown.
     void finish(std::size_t index, std::size_t workers, int threads, PictureCodec& codec) {
         BatchPicture& picture = report_.pictures[index];
+        std::optional<RunReport> how;
         try {
-            picture.state = drawn(picture, workers, threads, codec);
+            std::tie(picture.state, how) = drawn(picture, workers, threads, codec);
         } catch (const Error& error) {
-            if (error.code() == ErrorCode::cancelled) throw;
+            if (error.code() == ErrorCode::cancelled) return;
             // Reading, too, can fail for want of memory.
             const bool may_need_more = error.code() == ErrorCode::bad_usage || error.code() == ErrorCode::cannot_read;
             if (may_need_more && workers > 1) {
@@ -205,20 +225,26 @@ class Batch {
                 postponed_.push_back(index);
                 return;
             }
+            picture.state = State::failed;
             const bool is_of_input = error.file().empty() || error.file() == request_.input / picture.input;
             picture.problem = is_of_input ? error.problem() : fmt::format("{}: {}", error.file(), error.problem());
             picture.remedy = error.remedy();
         } catch (const std::bad_alloc&) {
+            picture.state = State::failed;
             picture.problem = "out of memory";
             picture.remedy = "ask for less --detail or a smaller --size";
         }
         const std::scoped_lock lock(mutex_);
         ++finished_;
-        tell(&picture);
+        BatchProgress now = progress();
+        now.picture = &picture;
+        now.drawn = how ? &*how : nullptr;
+        tell(now);
     }
 
-    State drawn(const BatchPicture& picture, std::size_t workers, int threads, PictureCodec& codec) {
-        work_.check();
+    /// What became of it, and how where it was drawn.
+    std::pair<State, std::optional<RunReport>> drawn(const BatchPicture& picture, std::size_t workers, int threads,
+                                                     PictureCodec& codec) {
         RunRequest run_request = request_.each;
         run_request.max_memory_bytes /= workers;
         run_request.input = request_.input / picture.input;
@@ -228,8 +254,8 @@ class Batch {
         std::vector<std::size_t> stale;
         for (std::size_t r = 0; r < picture.results.size(); ++r)
             if (!is_up_to_date(picture.results[r], hash, keys_[r])) stale.push_back(r);
-        if (stale.empty()) return State::up_to_date;
-        if (request_.each.dry_run) return State::done;
+        if (stale.empty()) return {State::up_to_date, {}};
+        if (request_.each.dry_run) return {State::done, {}};
         for (const std::size_t r : stale) {
             const fs::path target = request_.output / picture.results[r];
             check_inside(request_.output, target);
@@ -239,12 +265,12 @@ class Batch {
         }
         run_request.force = true;
         run_request.thumbnail_px = kThumbnail_px;
-        const RunReport made_now = run_one(run_request, threads, codec);
+        RunReport made_now = run_one(picture, run_request, threads, codec);
         write_thumbnail(thumbnail_before(picture), made_now.small_input, codec);
         write_thumbnail(thumbnail_after(picture), made_now.small_drawing, codec);
         for (std::size_t k = 0; k < stale.size(); ++k)
             ledger_->add(picture.results[stale[k]], {hash, keys_[stale[k]], made_now.outputs[k].bytes});
-        return State::done;
+        return {State::done, std::move(made_now)};
     }
 
     /// Judged by its size: if it is still what we made, we may replace it, with our mark in it or without.
@@ -269,31 +295,41 @@ class Batch {
         write_file_atomically(path, picture_file(small, format_named("jpg"), options, codec, path.string()));
     }
 
-    RunReport run_one(const RunRequest& run_request, int threads, PictureCodec& codec) {
+    RunReport run_one(const BatchPicture& picture, const RunRequest& run_request, int threads, PictureCodec& codec) {
         bool writing = false;
         Work work;
         work.stop = work_.stop;
         work.threads = threads;
-        work.progress = [&](std::string_view step, double) {
-            if ((step == "writing") != writing) set_writing(writing = !writing);
-        };
+        work.progress = [&](std::string_view step, double) { begin(picture, step, writing); };
         try {
             RunReport report = run(run_request, codec, work);
-            if (writing) set_writing(false);
+            begin(picture, "thumbnails", writing);
             return report;
         } catch (...) {
-            if (writing) set_writing(false);
+            begin(picture, {}, writing);
             throw;
         }
     }
 
-    void set_writing(bool begins) {
+    /// `writing`: whether it was writing its files before this step; then, whether it is.
+    void begin(const BatchPicture& picture, std::string_view step, bool& writing) {
         const std::scoped_lock lock(mutex_);
-        writing_ += begins ? 1 : -1;
-        tell(nullptr);
+        writing_ += int(step == "writing") - int(writing);
+        writing = step == "writing";
+        BatchProgress now = progress();
+        now.at_work = &picture;
+        now.step = step;
+        tell(now);
     }
-    void tell(const BatchPicture* picture) {
-        if (observer_) observer_({finished_, report_.pictures.size(), writing_ > 0, picture});
+    BatchProgress progress() const {
+        BatchProgress now;
+        now.finished = finished_;
+        now.total = report_.pictures.size();
+        now.writing = writing_ > 0;
+        return now;
+    }
+    void tell(const BatchProgress& now) const {
+        if (observer_) observer_(now);
     }
 
     const BatchRequest& request_;

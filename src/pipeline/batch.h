@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/picture_codec.h"
@@ -31,10 +32,10 @@ struct BatchRequest {
 };
 
 struct BatchPicture {
-    enum class State { done, up_to_date, failed };
+    enum class State { done, up_to_date, failed, not_reached };
     std::string input;                 ///< path from the input folder
     std::vector<std::string> results;  ///< paths from the output folder
-    State state = State::failed;
+    State state = State::not_reached;
     std::string problem, remedy;  ///< of what failed
 };
 
@@ -52,6 +53,9 @@ struct BatchProgress {
     std::size_t finished = 0, total = 0;
     bool writing = false;                   ///< whether some file is just being written
     const BatchPicture* picture = nullptr;  ///< that has just been finished
+    const RunReport* drawn = nullptr;       ///< how, if it has been drawn
+    const BatchPicture* at_work = nullptr;  ///< one that is about to do `step`
+    std::string_view step;                  ///< of run(), or "thumbnails"; empty when it fails
 };
 
 /// Checks what can be checked of a batch before a picture is read, and makes its manifest. Throws as run_batch does.
@@ -63,8 +67,9 @@ Manifest batch_pictures(const BatchRequest& request);
 /// `each.max_memory_bytes`; each may need its share of them, and those that need more are drawn alone afterwards. The
 /// bytes of a result depend on none of this, nor on what is drawn elsewhere. A shard keeps a ledger of its own, so that
 /// several can run on one folder of results at a time. In a dry run nothing is written, and pictures that would be
-/// drawn are `done`. Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every
-/// picture: a style, an auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write); Error(cancelled).
+/// drawn are `done`. When it is asked to stop, pictures that it is at are given up, and are `not_reached` as those
+/// after them. Throws Error(bad_usage) for folders that cannot be these, and for what is wrong with every picture: a
+/// style, an auxiliary file; Error(cannot_read) for a manifest; Error(cannot_write).
 BatchReport run_batch(const BatchRequest& request, const std::function<void(const BatchProgress&)>& observer,
                       const Work& work);
 

@@ -22,7 +22,13 @@ using nlohmann::ordered_json;
 constexpr const char *kReport = "report.json", *kSheet = "index.html";
 
 std::string_view state_name(State state) {
-    return state == State::done ? "done" : state == State::up_to_date ? "up to date" : "failed";
+    switch (state) {
+        case State::done: return "done";
+        case State::up_to_date: return "up to date";
+        case State::failed: return "failed";
+        case State::not_reached: return "not reached";
+    }
+    return "";
 }
 
 std::string escaped(std::string_view text) {
@@ -101,7 +107,7 @@ ordered_json json_of(const BatchReport& report) {
     ordered_json tree;
     tree["program"] = fmt::format("dstylize {}", version());
     tree["style"] = report.style;
-    for (const State state : {State::done, State::up_to_date, State::failed})
+    for (const State state : {State::done, State::up_to_date, State::failed, State::not_reached})
         tree[std::string(state_name(state))] = report.count(state);
     tree["pictures"] = ordered_json::array();
     for (const BatchPicture& picture : report.pictures) {
@@ -151,11 +157,14 @@ std::string batch_report_json(std::span<const BatchReport> reports) {
 std::string contact_sheet_html(const BatchReport& report, const fs::path& input, const fs::path& output) {
     const fs::path to_input = fs::proximate(fs::absolute(input), fs::absolute(output));
     std::string out(kHead);
-    out += fmt::format("<h1>{}</h1>\n<p>{} drawn, {} up to date, {} failed.</p>\n<section>\n", escaped(report.style),
-                       report.count(State::done), report.count(State::up_to_date), report.count(State::failed));
+    const std::size_t not_reached = report.count(State::not_reached);
+    out += fmt::format("<h1>{}</h1>\n<p>{} drawn, {} up to date, {} failed{}.</p>\n<section>\n", escaped(report.style),
+                       report.count(State::done), report.count(State::up_to_date), report.count(State::failed),
+                       not_reached > 0 ? fmt::format(", {} not reached", not_reached) : "");
     for (const bool failed : {true, false})
         for (const BatchPicture& picture : report.pictures)
-            if ((picture.state == State::failed) == failed) out += figure(picture, to_input, output);
+            if (picture.state != State::not_reached && (picture.state == State::failed) == failed)
+                out += figure(picture, to_input, output);
     return out + "</section>\n";
 }
 

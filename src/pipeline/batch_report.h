@@ -15,8 +15,8 @@ std::filesystem::path thumbnail_after(const BatchPicture& picture);
 std::string batch_report_json(const BatchReport& report);
 /// Of one batch the same; of several a list.
 std::string batch_report_json(std::span<const BatchReport> reports);
-/// The same for people: a page that shows every picture beside its result, what failed first. It names files by their
-/// paths from `output`, where it is to lie.
+/// The same for people: a page that shows every picture beside its result, what failed first, and counts those that
+/// were not reached. It names files by their paths from `output`, where it is to lie.
 std::string contact_sheet_html(const BatchReport& report, const std::filesystem::path& input,
                                const std::filesystem::path& output);
 

@@ -12,6 +12,13 @@
 
 namespace dstylize::test {
 
+/// Names of everything in a folder, hidden files too.
+inline std::set<std::string> names_in(const std::filesystem::path& folder) {
+    std::set<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) out.insert(entry.path().filename().string());
+    return out;
+}
+
 /// A new empty folder, gone with its contents at the end of the test.
 class TempFolder {
   public:
@@ -31,12 +38,7 @@ class TempFolder {
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
     /// Names of everything in it, hidden files too.
-    std::set<std::string> names() const {
-        std::set<std::string> out;
-        for (const auto& entry : std::filesystem::directory_iterator(path_))
-            out.insert(entry.path().filename().string());
-        return out;
-    }
+    std::set<std::string> names() const { return names_in(path_); }
 
   private:
     std::filesystem::path path_;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <regex>
 #include <thread>
 
 #include "contract/app/folder_fixture.h"
@@ -284,6 +285,50 @@ TEST_F(FolderTest, FollowsNoLinkOutOfTheFolderOfTheDrawings) {
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 3) << outcome.err;
     EXPECT_TRUE(file_bytes(folder_ / "in.png") == before);
     EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+}
+
+TEST_F(FolderTest, DrawsIntoNoFolderThatContainsTheInput) {
+    // The drawing of sea/sea/b.png would be sea/b.png, an original.
+    fs::create_directory(folder_ / "photos/sea/sea");
+    write_png(folder_ / "photos/sea/sea/b.png", scene({50, 50}));
+    fs::create_directory_symlink("photos/sea", folder_ / "link");
+    fs::create_directory_symlink("photos", folder_ / "whole");
+    const auto before = results(folder_ / "photos");
+    for (const Words& folders : {Words{"photos/sea", "photos"}, Words{"photos/sea/deep", "photos/"},
+                                 Words{"photos/sea", "whole"}, Words{"link", "photos"}, Words{"photos", "."}})
+        for (const Words& more : {Words{}, Words{"--style", "vine"}, Words{"--dry-run"}}) {
+            Words words{folders[0], folders[1], "--force"};
+            words.insert(words.end(), more.begin(), more.end());
+            expect_error(draw(words), 2, {folders[1] + ": contains the input, " + folders[0]});
+        }
+    expect_error(draw({"sbatch", "photos/sea", "photos", "--nodes", "2"}), 2, {"photos: contains the input"});
+    EXPECT_TRUE(results(folder_ / "photos") == before);
+    EXPECT_FALSE(fs::exists(folder_ / "photos/.dstylize"));
+    expect_done(draw({"photos", "photos2"}));
+    expect_done(draw({"link", "photos3"}));
+}
+
+TEST_F(FolderTest, TellsOfEveryPictureWhenVerbose) {
+    write_file(folder_ / "photos/bad.png", std::string_view("no PNG"));
+    const Outcome drawn = draw_all({"--verbose", "--threads", "2"});
+    EXPECT_EQ(drawn.exit_code, 5);
+    EXPECT_NE(drawn.out.find("drawn             3"), std::string::npos) << drawn.out;
+    for (const std::string name : {"a.png", "sea/b.png", "sea/deep/c d&.png"}) {
+        // Whole, however many are drawn at a time.
+        const std::regex block("(^|\\n)photos/" + name +
+                               ": \\d+ x \\d+ pixels, style ink, seed \\d+, \\d+ x \\d+ nodes\\n"
+                               "  reading [0-9.]+, .*writing [0-9.]+, thumbnails [0-9.]+, all [0-9.]+ s\\n"
+                               "  dendrite \\d+ endpoints, .*drawn \\d+ nodes in \\d+ strokes, .*kept from .*\\n"
+                               "out/" +
+                               name + ": png, \\d+ x \\d+, \\d+ bytes\\n");
+        EXPECT_TRUE(std::regex_search(drawn.err, block)) << name << "\n" << drawn.err;
+    }
+    EXPECT_EQ(std::count(drawn.err.begin(), drawn.err.end(), '\n'), 3 * 4 + 1) << "the bad one's line is the error's";
+    const std::string later = draw_all({"--verbose"}).err;
+    for (const char* name : {"a.png", "sea/b.png", "sea/deep/c d&.png"})
+        EXPECT_NE(later.find(std::string("photos/") + name + ": up to date\n"), std::string::npos) << later;
+    EXPECT_NE(draw({"photos", "new", "--verbose", "--dry-run"}).err.find("photos/a.png: to be drawn\n"),
+              std::string::npos);
 }
 
 TEST_F(FolderTest, RefusesFoldersThatCannotBeThese) {
