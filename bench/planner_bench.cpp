@@ -50,7 +50,9 @@ std::vector<Row> rows() {
             {"portrait", Metric::max_sum, weights8, {}, grown_twice, true},
             {"portrait", Metric::max_sum, planes16, {10, 18}},
             {"portrait", Metric::lexicographic, weights8, {12, 21}},
-            {"portrait", Metric::blend, weights8}};
+            {"portrait", Metric::lexicographic, irregular},
+            {"portrait", Metric::blend, weights8},
+            {"portrait", Metric::blend, irregular}};
 }
 
 bool compare(double mega, const std::string& only, const std::string& json) {
