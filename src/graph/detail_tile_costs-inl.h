@@ -36,8 +36,12 @@ class WindowRows {
         // Rows lie pages apart, so that no processor guesses where the next one is.
         constexpr int kAhead = 8, kLine = 64 / sizeof(T);
         if (j + kAhead >= top && j + kAhead < bottom)
-            for (int x = std::max(0, left - origin_.dx); x < std::min(kWindow, right - origin_.dx); x += kLine)
-                hwy::Prefetch(plane + begin + std::ptrdiff_t(kAhead) * extent_.x + x);
+        {
+            const T* const ahead = plane + begin + std::ptrdiff_t(kAhead) * extent_.x;
+            const int first = std::max(0, left - origin_.dx), end = std::min(kWindow, right - origin_.dx);
+            for (int x = first; x < end; x += kLine) hwy::Prefetch(ahead + x);
+            hwy::Prefetch(ahead + end - 1);
+        }
         const bool row_is_inside = j >= top && j < bottom;
         if (row_is_inside && origin_.dx >= left && origin_.dx + kWindow <= right) return plane + begin;
         std::fill_n(copy_, kWindow, outside_);
