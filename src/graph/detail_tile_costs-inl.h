@@ -35,8 +35,7 @@ class WindowRows {
         const std::ptrdiff_t begin = std::ptrdiff_t(j) * extent_.x + origin_.dx;
         // Rows lie pages apart, so that no processor guesses where the next one is.
         constexpr int kAhead = 8, kLine = 64 / sizeof(T);
-        if (j + kAhead >= top && j + kAhead < bottom)
-        {
+        if (j + kAhead >= top && j + kAhead < bottom) {
             const T* const ahead = plane + begin + std::ptrdiff_t(kAhead) * extent_.x;
             const int first = std::max(0, left - origin_.dx), end = std::min(kWindow, right - origin_.dx);
             for (int x = first; x < end; x += kLine) hwy::Prefetch(ahead + x);

@@ -90,9 +90,7 @@ struct TileProblem {
 
     /// Whether a visit takes 32-bit lanes: half as many at a time, but where labels rise steeply a tile of 16-bit ones
     /// would have to be visited two or three times as often.
-    bool takes_wide_lanes(const Pending& job) const {
-        return wide || (job.steep && job.least <= largest_base(true));
-    }
+    bool takes_wide_lanes(const Pending& job) const { return wide || (job.steep && job.least <= largest_base(true)); }
     /// Whether a label is beyond the sight of 16-bit lanes from a base below.
     bool is_steep(std::uint32_t base, std::uint32_t label) const {
         return largest_step >= kNarrowFar || label - base >= kNarrowFar - largest_step;

@@ -80,9 +80,8 @@ void add_lanes(Pending& pending, const Lane* now, std::uint32_t base, std::uint6
 
 /// Hands on how many bits the next visits need.
 inline void mark_steep(const TileProblem& problem, std::uint32_t base, TileVisit& visit) {
-    const bool steep = std::any_of(visit.after.begin(), visit.after.end(), [&](const Pending& p) {
-        return p.any() && problem.is_steep(base, p.largest);
-    });
+    const bool steep = std::any_of(visit.after.begin(), visit.after.end(),
+                                   [&](const Pending& p) { return p.any() && problem.is_steep(base, p.largest); });
     for (Pending& p : visit.after) p.steep = steep;
 }
 
