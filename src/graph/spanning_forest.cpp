@@ -204,7 +204,7 @@ class ForestByTiles {
                                      [](std::size_t sum, const auto& of_block) { return sum + of_block.size(); }));
         for (auto& of_block : open) {
             for (const CandidateEdge& e : of_block) rest.push_back({e.key, tree[e.a], tree[e.b]});
-            std::exchange(of_block, {});
+            of_block = std::vector<CandidateEdge>();
         }
         std::sort(rest.begin(), rest.end());
         TreeJoiner<std::uint32_t> joiner;
