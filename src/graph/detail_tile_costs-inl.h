@@ -16,39 +16,42 @@
 HWY_BEFORE_NAMESPACE();
 namespace dstylize::HWY_NAMESPACE {
 
-/// Row y of a tile's window in a plane over the lattice: where it lies or, if it reaches out, a copy.
+/// Row y of a tile's window in a plane over the lattice: where it lies or, if it reaches out, a copy. Only of nodes
+/// that are in the lattice with the ones that `step` leads to.
 template <class T>
 class WindowRows {
   public:
-    WindowRows(const Lattice& lattice, const Tiling& tiling, int tile, T outside)
-        : extent_(lattice.extent()), origin_(tiling.origin(tile)), outside_(outside) {}
+    WindowRows(const Lattice& lattice, const Tiling& tiling, int tile, T outside, Step step = {0, 0, 0})
+        : width_(lattice.extent().x), origin_(tiling.origin(tile)), outside_(outside) {
+        const Extent e = lattice.extent();
+        top_ = std::max(0, -int(step.dy)) - origin_.dy;
+        bottom_ = std::min(e.y, e.y - step.dy) - origin_.dy;
+        first_ = std::max(0, std::max(0, -int(step.dx)) - origin_.dx);
+        end_ = std::min(kWindow, std::min(e.x, e.x - step.dx) - origin_.dx);
+    }
 
-    const T* operator()(const T* plane, int y) { return at_origin(plane, y, {0, 0, 0}); }
-    /// Only of nodes that are in the lattice with the ones that `step` leads to.
-    const T* with_step(const T* plane, int y, Step step) { return at_origin(plane, y, step); }
-
-  private:
-    const T* at_origin(const T* plane, int y, Step step) {
-        const int j = origin_.dy + y;
-        const int top = std::max(0, -int(step.dy)), bottom = std::min(extent_.y, extent_.y - step.dy);
-        const int left = std::max(0, -int(step.dx)), right = std::min(extent_.x, extent_.x - step.dx);
-        const std::ptrdiff_t begin = std::ptrdiff_t(j) * extent_.x + origin_.dx;
-        // Rows lie pages apart, so that no processor guesses where the next one is.
-        constexpr int kAhead = 8, kLine = 64 / sizeof(T);
-        if (j + kAhead >= top && j + kAhead < bottom)
-            for (int x = std::max(0, left - origin_.dx); x < std::min(kWindow, right - origin_.dx); x += kLine)
-                hwy::Prefetch(plane + begin + std::ptrdiff_t(kAhead) * extent_.x + x);
-        const bool row_is_inside = j >= top && j < bottom;
-        if (row_is_inside && origin_.dx >= left && origin_.dx + kWindow <= right) return plane + begin;
+    const T* operator()(const T* plane, int y) {
+        const std::ptrdiff_t row = std::ptrdiff_t(origin_.dy + y) * width_ + origin_.dx;
+        if (first_ < end_ && y + kAhead >= top_ && y + kAhead < bottom_) ask_for(plane + (row + kAhead * width_));
+        const bool row_is_inside = y >= top_ && y < bottom_;
+        if (row_is_inside && first_ == 0 && end_ == kWindow) return plane + row;
         std::fill_n(copy_, kWindow, outside_);
-        const int first = std::max(0, left - origin_.dx), end = std::min(kWindow, right - origin_.dx);
-        if (row_is_inside && first < end) std::copy_n(plane + (begin + first), end - first, copy_ + first);
+        if (row_is_inside && first_ < end_) std::copy_n(plane + (row + first_), end_ - first_, copy_ + first_);
         return copy_;
     }
 
-    Extent extent_;
+  private:
+    /// Rows lie pages apart, so that no processor guesses where the next one is.
+    static constexpr int kAhead = 12, kLine = 64 / sizeof(T);
+    void ask_for(const T* row) const {
+        for (int x = first_; x < end_; x += kLine) hwy::Prefetch(row + x);
+        hwy::Prefetch(row + end_ - 1);
+    }
+
+    std::ptrdiff_t width_;
     Offset origin_;
     T outside_;
+    int top_ = 0, bottom_ = 0, first_ = 0, end_ = 0;  // of the window
     alignas(64) T copy_[kWindow];
 };
 
@@ -109,11 +112,11 @@ HWY_INLINE Vec<Lane> cost_within(Vec<Lane> cost, Vec<Lane> height, Vec<Lane> m_u
     return hn::IfThenElse(hn::Eq(hn::Max(m_u, height), m_v), cost, hn::Set(Tag<Lane>(), kFar<Lane>));
 }
 
-/// Heights of the edges that leave a row by step s, or null where there are no planes.
+/// Heights of the edges that leave a row by step s, for which the rows are, or null where there are no planes.
 inline const std::uint16_t* heights_in_plane(const WeightedLattice& g, WindowRows<std::uint16_t>& rows, int y,
                                              std::size_t s) {
     if (g.height_plane.empty()) return nullptr;
-    return rows.with_step(g.height_plane[g.symmetric ? s / 2 : s].data(), y, g.lattice.steps()[s]);
+    return rows(g.height_plane[g.symmetric ? s / 2 : s].data(), y);
 }
 
 /// Node weights, far where nothing may pass, and bottlenecks, each if they are needed.
@@ -148,7 +151,7 @@ void load_costs_of_step(const TileProblem& problem, int tile, std::size_t s, Til
     const Step step = g.lattice.steps()[s];
     const int ahead = step.dy * kWindow + step.dx;
     const bool both_ways = problem.symmetric();
-    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0);
+    WindowRows<std::uint16_t> rows(g.lattice, problem.tiling, tile, 0, step);
     for (int y = 0; y < kWindow; ++y) {
         const std::uint16_t* const planes_row = heights_in_plane(g, rows, y, s);
         for (int x = 0; x < kWindow; x += kLanes<Lane>) {

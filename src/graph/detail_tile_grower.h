@@ -8,23 +8,16 @@
 #include <vector>
 
 #include "graph/detail_forest_walk.h"
+#include "graph/detail_open_edges.h"
 #include "graph/detail_tile_forest.h"
 #include "graph/detail_tree_joiner.h"
 
 namespace dstylize {
 
-inline constexpr std::uint16_t kNoTree = 0xffff;
-
-/// An edge that no tile can decide on alone, between trees of a tile.
-struct OpenEdge {
-    TileEdge edge;
-    std::uint16_t tree, other;  // other is kNoTree where it lies in another tile
-};
-
 /// What is left of a tile.
 struct TileRemainder {
     static constexpr int kSide = kWindow - 2;
-    std::vector<OpenEdge> open;
+    std::span<const OpenEdge> open;
     std::array<std::uint16_t, std::size_t{4} * kSide> border;  // trees of the outermost own nodes
     std::uint16_t source_tree = kNoTree;
     std::uint32_t tree_count = 0;
@@ -41,8 +34,8 @@ class TileGrower {
   public:
     TileGrower(const WeightedLattice& graph, const Tiling& tiling) : graph_(graph), tiling_(tiling) {}
 
-    /// Sets the tile's own nodes in `forest`.
-    TileRemainder grow(int tile, std::span<const std::uint16_t> sources, Forest& forest) {
+    /// Sets the tile's own nodes in `forest`, keeps what is left open in `open`.
+    TileRemainder grow(int tile, std::span<const std::uint16_t> sources, Forest& forest, OpenEdges& open) {
         std::array<std::uint64_t, kWindow> is_source{};
         for (const int n : sources) is_source[std::size_t(n / kWindow)] |= std::uint64_t{1} << n % kWindow;
         sift_tile(graph_, tiling_, tile, is_source, sifted_);
@@ -53,6 +46,7 @@ class TileGrower {
         open_.clear();
         for (std::size_t i = 0; i < sifted_.edge_count; ++i) take(TileEdge(sifted_.edge[i]));
         TileRemainder out = numbered(sources);
+        out.open = open.keep(open_);
         store(tile, forest);
         return out;
     }
@@ -93,7 +87,6 @@ class TileGrower {
             for (const auto& [x, y] : {std::pair(i, 0), {i, kLast}, {0, i}, {kLast, i}})
                 out.border[TileRemainder::border_place(x, y)] = number(std::uint16_t((y + 1) * kWindow + x + 1));
         if (!sources.empty()) out.source_tree = number(sources[0]);
-        out.open = open_;
         return out;
     }
 

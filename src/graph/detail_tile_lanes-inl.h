@@ -37,7 +37,7 @@ inline constexpr int kSweepLanes = int(hn::MaxLanes(SweepTag<Lane>()));
 
 /// No label, no edge. Twice that much, or that and a cost, does not wrap.
 template <class Lane>
-inline constexpr Lane kFar = sizeof(Lane) == 2 ? Lane(65535) : Lane(1u << 30);
+inline constexpr Lane kFar = Lane(sizeof(Lane) == 2 ? TileProblem::kNarrowFar : TileProblem::kWideFar);
 
 template <class V>
 HWY_INLINE V sum_of(V a, V b) {

@@ -22,6 +22,7 @@ void TileQueue::add_locked(int tile, const Pending& pending) {
     Pending& p = tiles_[std::size_t(tile)].pending;
     const bool sooner = pending.least < p.least;
     p.add(pending.least, pending.largest, pending.rows, pending.columns);
+    p.steep = pending.steep;
     if (sooner) heap_of(tile).push({p.least, tile});
 }
 

@@ -20,13 +20,14 @@ namespace dstylize::HWY_NAMESPACE {
 inline void load_heights(const WeightedLattice& g, const Tiling& tiling, int tile, SiftedTile& t) {
     using Lane = std::uint16_t;
     const Tag<Lane> d;
-    WindowRows<Lane> rows(g.lattice, tiling, tile, 0);
-    if (g.height_plane.empty())
+    if (g.height_plane.empty()) {
+        WindowRows<Lane> rows(g.lattice, tiling, tile, 0);
         for (int y = 0; y < kWindow; ++y) {
             const Lane* const weight = rows(g.weight.data(), y);
             for (int x = 0; x < kWindow; x += kLanes<Lane>)
                 hn::Store(far_if_zero<Lane>(hn::LoadU(d, weight + x)), d, t.weight.data() + y * kWindow + x);
         }
+    }
     const auto steps = g.lattice.steps();
     for (std::size_t k = 0; k < kForward.size(); ++k) {
         Lane* const out = t.height[k].data();
@@ -36,6 +37,7 @@ inline void load_heights(const WeightedLattice& g, const Tiling& tiling, int til
         }
         // Planes hold the height of an even step with the node that it leaves, which may be the larger one.
         const std::size_t even = kForwardStep[k] & ~1u;
+        WindowRows<Lane> rows(g.lattice, tiling, tile, 0, steps[even]);
         const int to_smaller = even == kForwardStep[k] ? 0 : -in_window(kForward[k]);
         for (int y = 0; y < kWindow; ++y) {
             const Lane* const plane_row = heights_in_plane(g, rows, y, even);

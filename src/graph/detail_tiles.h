@@ -49,6 +49,7 @@ class Tiling {
 struct Pending {
     std::uint32_t least = ~std::uint32_t{0}, largest = 0;
     std::uint64_t rows = 0, columns = 0;
+    bool steep = false;  ///< labels beside it were seen to rise by more than 16 bits over a window
     void add(std::uint32_t least_label, std::uint32_t largest_label, std::uint64_t in_rows, std::uint64_t in_columns) {
         least = std::min(least, least_label);
         largest = std::max(largest, largest_label);
@@ -70,7 +71,7 @@ struct TileProblem {
     const WeightedLattice& graph;
     Tiling tiling;
     TileRule rule;
-    bool wide;                            ///< 32-bit lanes instead of 16-bit ones
+    bool wide;                            ///< 32-bit lanes throughout, as 16-bit ones would not do
     std::uint32_t largest_step;           ///< no edge adds more to a label (0 for `bottleneck`)
     std::span<std::uint32_t> sum;         ///< labels, one per node; ~0: unreached
     std::span<std::uint16_t> bottleneck;  ///< M: the labels of `bottleneck`; ~0: unreached
@@ -80,9 +81,20 @@ struct TileProblem {
     /// Whether edges cost the same both ways.
     bool symmetric() const { return graph.height_plane.empty() || graph.symmetric; }
     /// What a label can be above the smallest pending one and still be seen by a visit.
-    std::uint32_t far() const { return wide ? std::uint32_t{1} << 30 : 65535; }
+    static constexpr std::uint32_t kNarrowFar = 65535, kWideFar = std::uint32_t{1} << 30;
     /// Visits to tiles whose smallest pending label lies above would not keep labels within 32 bits.
-    std::uint32_t largest_base() const { return ~std::uint32_t{0} - 1 - far(); }
+    static constexpr std::uint32_t largest_base(bool by_wide_lanes) {
+        return ~std::uint32_t{0} - 1 - (by_wide_lanes ? kWideFar : kNarrowFar);
+    }
+    std::uint32_t largest_base() const { return largest_base(wide); }
+
+    /// Whether a visit takes 32-bit lanes: half as many at a time, but where labels rise steeply a tile of 16-bit ones
+    /// would have to be visited two or three times as often.
+    bool takes_wide_lanes(const Pending& job) const { return wide || (job.steep && job.least <= largest_base(true)); }
+    /// Whether a label is beyond the sight of 16-bit lanes from a base below.
+    bool is_steep(std::uint32_t base, std::uint32_t label) const {
+        return largest_step >= kNarrowFar || label - base >= kNarrowFar - largest_step;
+    }
 };
 
 template <class Lane>

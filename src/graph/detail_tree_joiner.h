@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dstylize {
@@ -27,6 +28,11 @@ class TreeJoiner {
         grown_.assign(root.begin(), root.end());
         joined_ = grown_;
         is_frozen_.assign(root.size(), false);
+    }
+    void begin(std::vector<Tree>&& root) {
+        grown_ = std::move(root);
+        joined_ = grown_;
+        is_frozen_.assign(grown_.size(), false);
     }
     void begin(std::size_t trees) {
         grown_.resize(trees);

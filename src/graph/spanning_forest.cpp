@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "graph/detail_forest_walk.h"
@@ -111,28 +112,30 @@ class ForestByTiles {
     }
 
     Forest grown() && {
+        auto open_edges = std::make_unique<OpenEdges>(graph_.lattice.node_count());
         for_each(
             tiling_.count(), [&] { return std::make_unique<TileGrower>(graph_, tiling_); },
             [&](int tile, TileGrower& grower) {
-                left_[std::size_t(tile)] = grower.grow(tile, sources_of_[std::size_t(tile)], forest_);
+                left_[std::size_t(tile)] = grower.grow(tile, sources_of_[std::size_t(tile)], forest_, *open_edges);
             });
         const BlockedTrees trees(tiling_, left_);
-        // What blocks leave open, and to which tree each of a block's trees came to belong.
         std::vector<std::vector<CandidateEdge>> open(std::size_t(trees.count()));
         std::vector<std::uint32_t> tree(trees.tree_count());
         for_each(
             trees.count(), [] { return std::make_unique<BlockScratch>(); },
             [&](int block, BlockScratch& scratch) {
-                take_block(trees, block, scratch, open[std::size_t(block)], tree);
+                take_block(trees, block, scratch, tree);
+                open[std::size_t(block)] = scratch.open;
             });
-        take_rest(trees, open, tree);
+        open_edges.reset();
+        take_rest(trees, std::move(open), std::move(tree));
         return std::move(forest_);
     }
 
   private:
     /// Memory of one thread.
     struct BlockScratch {
-        std::vector<CandidateEdge> candidates;
+        std::vector<CandidateEdge> candidates, open;
         TreeJoiner<std::uint32_t> joiner;
     };
 
@@ -149,11 +152,11 @@ class ForestByTiles {
         });
     }
 
-    void take_block(const BlockedTrees& trees, int block, BlockScratch& scratch, std::vector<CandidateEdge>& open,
-                    std::vector<std::uint32_t>& tree) {
+    void take_block(const BlockedTrees& trees, int block, BlockScratch& scratch, std::vector<std::uint32_t>& tree) {
         const std::uint32_t first = trees.first_tree(block), count = trees.tree_count(block);
         const auto is_own = [&](std::uint32_t t) { return t - first < count; };
         scratch.candidates.clear();
+        scratch.open.clear();
         trees.for_tiles(block, 1, [&](int tile) {
             const bool own = is_own(trees.first_tree_of_tile(tile));
             for (const OpenEdge& edge : left_[std::size_t(tile)].open)
@@ -169,12 +172,12 @@ class ForestByTiles {
             if (k + kAhead < scratch.candidates.size()) forest_.prefetch(node_of(scratch.candidates[k + kAhead]));
             if (is_own(e.a) != is_own(e.b)) {
                 joiner.freeze((is_own(e.a) ? e.a : e.b) - first);
-                if (is_own(e.a)) open.push_back(e);
+                if (is_own(e.a)) scratch.open.push_back(e);
                 continue;
             }
             const EdgeFate fate = joiner.take(e.a - first, e.b - first);
             if (fate == EdgeFate::joins) add(e);
-            if (fate == EdgeFate::stays_open) open.push_back(e);
+            if (fate == EdgeFate::stays_open) scratch.open.push_back(e);
         }
         for (std::uint32_t t = 0; t < count; ++t) tree[first + t] = first + joiner.root(t);
     }
@@ -193,14 +196,19 @@ class ForestByTiles {
         return source;
     }
 
-    void take_rest(const BlockedTrees& trees, const std::vector<std::vector<CandidateEdge>>& open,
-                   const std::vector<std::uint32_t>& tree) {
+    /// `open`: what blocks leave open, which is let go; `tree`: to which tree each of a block's trees came to belong.
+    void take_rest(const BlockedTrees& trees, std::vector<std::vector<CandidateEdge>> open,
+                   std::vector<std::uint32_t> tree) {
         std::vector<CandidateEdge> rest;
-        for (const auto& of_block : open)
+        rest.reserve(std::accumulate(open.begin(), open.end(), std::size_t{0},
+                                     [](std::size_t sum, const auto& of_block) { return sum + of_block.size(); }));
+        for (auto& of_block : open) {
             for (const CandidateEdge& e : of_block) rest.push_back({e.key, tree[e.a], tree[e.b]});
+            of_block = std::vector<CandidateEdge>();
+        }
         std::sort(rest.begin(), rest.end());
         TreeJoiner<std::uint32_t> joiner;
-        joiner.begin(tree);
+        joiner.begin(std::move(tree));
         std::optional<std::uint32_t> source;
         for (int block = 0; block < trees.count(); ++block) {
             const auto here = unite_sources(trees, block, joiner, 0);

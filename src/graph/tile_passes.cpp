@@ -78,6 +78,13 @@ void add_lanes(Pending& pending, const Lane* now, std::uint32_t base, std::uint6
     pending.add(base + least, base + largest, row, columns_left >= 0 ? lanes << columns_left : lanes >> -columns_left);
 }
 
+/// Hands on how many bits the next visits need.
+inline void mark_steep(const TileProblem& problem, std::uint32_t base, TileVisit& visit) {
+    const bool steep = std::any_of(visit.after.begin(), visit.after.end(),
+                                   [&](const Pending& p) { return p.any() && problem.is_steep(base, p.largest); });
+    for (Pending& p : visit.after) p.steep = steep;
+}
+
 /// Writes back what fell and tells the tile that a node belongs to: rim nodes are the neighbours', and
 /// of the tile's own those wait for another visit whose edges end beyond what this one could see.
 template <class Rule, class Lane>
@@ -109,6 +116,7 @@ void write_back(const TileProblem& problem, const TileWindow<Lane>& window, std:
     const Pending& job = visit.job;
     if (problem.rule != TileRule::bottleneck && job.largest >= base + seen && job.largest > base)
         visit.after[4].add(base + seen, job.largest, job.rows, job.columns);
+    if (problem.rule != TileRule::bottleneck) mark_steep(problem, base, visit);
 }
 
 template <class Rule, int kSteps, class Lane>
@@ -147,10 +155,11 @@ bool has_half_costs(const TileProblem& problem) {
 
 void visit_tile(const TileProblem& problem, TileScratch& scratch, TileVisit& visit) {
     if (problem.rule == TileRule::bottleneck) return visit_lattice<HighestEdge>(problem, scratch.narrow, visit);
+    const bool wide = problem.takes_wide_lanes(visit.job);
     if (has_half_costs(problem))
-        return problem.wide ? visit_lattice<AddHalfCosts>(problem, scratch.wide, visit)
-                            : visit_lattice<AddHalfCosts>(problem, scratch.narrow, visit);
-    if (problem.wide) return visit_lattice<AddCost>(problem, scratch.wide, visit);
+        return wide ? visit_lattice<AddHalfCosts>(problem, scratch.wide, visit)
+                    : visit_lattice<AddHalfCosts>(problem, scratch.narrow, visit);
+    if (wide) return visit_lattice<AddCost>(problem, scratch.wide, visit);
     visit_lattice<AddCost>(problem, scratch.narrow, visit);
 }
 

@@ -6,7 +6,7 @@
 // above fell; then up; then the same on the transposed window for right and left. What fell is
 // written back. Nodes of the rim belong to the neighbours: those that fell are pending there. The tile
 // with the smallest pending label is visited next, so labels come to rest in nearly the order in which
-// best-first search would settle them, and a tile is visited about three times.
+// best-first search would settle them, and a tile is visited one to three times.
 //
 // It is exact whatever the order of visits: a label is always the cost of some path, it only falls, and
 // whenever one falls, all edges that leave its node are relaxed later. Three things need care:

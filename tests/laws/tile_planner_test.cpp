@@ -154,8 +154,8 @@ TEST(TilePlanner, TellsParentsApartWhoseSumsHaveTheSameLowHalf) {
 
 TEST(TilePlanner, LeavesSumsThatDoNotFit32BitsToAnother) {
     RandomGraph g = weighted({90, 3}, Neighbourhood::square8, std::vector<NodeWeight>(270, 255));
-    for (const std::uint64_t start :
-         {0xffff0000ull - 300000, 0xffff0000ull - 2, 0xffff0000ull, 0xffffffffull, 0x100000000ull}) {
+    for (const std::uint64_t start : {0xffff0000ull - 300000, 0x100000000ull - 225000, 0xffff0000ull - 2, 0xffff0000ull,
+                                      0xffffffffull, 0x100000000ull}) {
         g.sources = {{NodeId{0}, start, 1}};
         const Plan expected = reference_planner().plan({g.graph, g.sources, Metric::sum}, {});
         EXPECT_TRUE(tile_planner().plan({g.graph, g.sources, Metric::sum}, {}).label == expected.label) << start;
@@ -252,6 +252,16 @@ TEST(TilePlanner, VisitsATileAFewTimes) {
             EXPECT_LE(64.0 * double(stats.rows_relaxed) / nodes, most.relaxations_of_a_node);
         }
     }
+}
+
+/// A window's labels span three times what 16 bits hold.
+TEST(TilePlanner, VisitsATileAboutOnceWhereLabelsRiseSteeply) {
+    const RandomGraph g = weighted({1000, 1000}, Neighbourhood::square8, std::vector<NodeWeight>(1000000, 255));
+    Work work;
+    work.threads = 1;
+    TileStats stats;
+    plan_by_tiles({g.graph, g.sources, Metric::sum}, work, stats);
+    EXPECT_LE(double(stats.visits) / double(stats.tiles), 1.2);
 }
 
 }  // namespace
