@@ -102,9 +102,8 @@ std::pair<BatchReport, double> run_folder(const BatchRequest& batch, const Argum
             interrupt.set_writing(now.writing);
             if (arguments.verbose) verbose.hear(now);
             if (now.at_work) return;
-            if (now.picture || now.finished == 0)
-                progress.begin(fmt::format("{} of {} pictures", now.finished, now.total),
-                               double(now.finished) / double(std::max<std::size_t>(1, now.total)));
+            progress.begin(fmt::format("{} of {} pictures", now.finished, now.total),
+                           double(now.finished) / double(std::max<std::size_t>(1, now.total)));
             if (!now.picture) return;
             if (now.picture->state == State::failed)
                 progress.beside([&] {

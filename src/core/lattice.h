@@ -37,7 +37,7 @@ class Lattice {
   public:
     Lattice() = default;
     Lattice(Extent extent, Neighbourhood neighbourhood) : extent_(extent), neighbourhood_(neighbourhood) {}
-    /// An irregular lattice; `steps()` is empty then. graph/scattered_lattice.h makes them.
+    /// An irregular lattice; `steps()` is empty then. graph/scattered_lattice.h and graph/listed_lattices.h make them.
     Lattice(Extent extent, std::shared_ptr<const Adjacency> adjacency)
         : extent_(extent), adjacency_(std::move(adjacency)) {}
 

@@ -47,27 +47,9 @@ class StepNames {
 /// The names on an irregular lattice, a byte for each of its edges.
 class ListedNames {
   public:
-    explicit ListedNames(const Lattice& lattice) : adjacency_(*lattice.adjacency()), rank_(adjacency_.to.size()) {
-        // Nodes are met in their order, so each finds itself next in the list of a larger one.
-        std::vector<std::uint32_t> next(adjacency_.first.begin(), adjacency_.first.end() - 1);
-        for (std::uint32_t u = 0; u < next.size() && has_all_; ++u)
-            for (std::uint32_t e = adjacency_.first[u]; e < adjacency_.first[u + 1]; ++e) {
-                const std::uint32_t v = adjacency_.to[e], rank = e - adjacency_.first[u];
-                if (v < u) continue;
-                const std::uint32_t back = next[v]++;
-                has_all_ = v != u && rank < kRanks && back < adjacency_.first[v + 1] && adjacency_.to[back] == u &&
-                           adjacency_.length5[back] == adjacency_.length5[e] &&
-                           (rank == 0 || adjacency_.to[e - 1] <= v);
-                if (!has_all_) return;
-                rank_[e] = rank_[back] = std::uint8_t(rank);
-            }
-        for (std::uint32_t u = 0; u < next.size(); ++u) {
-            // What is left over in a list has no edge that leads back.
-            const std::uint32_t smaller = next[u];
-            has_all_ = has_all_ && (smaller == adjacency_.first[u + 1] || adjacency_.to[smaller] > u);
-        }
-    }
-    /// False where some edge leads one way alone, a list is out of order, or a node has more than 256 edges.
+    explicit ListedNames(const Lattice& lattice)
+        : adjacency_(*lattice.adjacency()), rank_(adjacency_.to.size()), has_all_(find_ranks()) {}
+    /// False where some edge has no like back, as long, or a list is out of order, or a node has very many edges.
     bool has_all() const { return has_all_; }
     std::uint64_t of(std::uint32_t from, std::uint32_t to, int edge) const {
         return std::uint64_t(std::min(from, to)) * kRanks + rank_[std::size_t(edge)];
@@ -80,9 +62,28 @@ class ListedNames {
     static constexpr std::uint32_t kRanks = 256;
     std::size_t place(std::uint64_t name) const { return adjacency_.first[name / kRanks] + name % kRanks; }
 
+    bool find_ranks() {
+        const auto& [position, first, to, length5] = adjacency_;
+        // Nodes are met in their order, so each finds itself next in the list of a larger one.
+        std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+        for (std::uint32_t u = 0; u < next.size(); ++u)
+            for (std::uint32_t e = first[u]; e < first[u + 1]; ++e) {
+                const std::uint32_t v = to[e], rank = e - first[u];
+                if (v < u) continue;
+                const std::uint32_t back = next[v]++;
+                const bool leads_back = v != u && back < first[v + 1] && to[back] == u && length5[back] == length5[e];
+                if (!leads_back || rank >= kRanks || (rank > 0 && to[e - 1] > v)) return false;
+                rank_[e] = rank_[back] = std::uint8_t(rank);
+            }
+        // No edge to a smaller node is left over.
+        for (std::uint32_t u = 0; u < next.size(); ++u)
+            if (next[u] < first[u + 1] && to[next[u]] < u) return false;
+        return true;
+    }
+
     const Adjacency& adjacency_;
     std::vector<std::uint8_t> rank_;  // of the larger node, from the smaller one
-    bool has_all_ = true;
+    bool has_all_;
 };
 
 }  // namespace dstylize

@@ -18,7 +18,7 @@ inline constexpr std::uint16_t kNoTree = 0xffff;
 /// An edge that no tile can decide on alone, between trees of a tile.
 struct OpenEdge {
     TileEdge edge;
-    std::uint16_t tree = 0, other = 0;  // other is kNoTree where it lies in another tile
+    std::uint16_t tree, other;  // other is kNoTree where it lies in another tile
 };
 
 /// The lists of open edges of many tiles, kept by any number of threads. They lie in one piece, as large as the column

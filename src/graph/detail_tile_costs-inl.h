@@ -32,7 +32,7 @@ class WindowRows {
 
     const T* operator()(const T* plane, int y) {
         const std::ptrdiff_t row = std::ptrdiff_t(origin_.dy + y) * width_ + origin_.dx;
-        if (first_ < end_ && y + kAhead >= top_ && y + kAhead < bottom_) ask_for(plane + (row + kAhead * width_));
+        if (first_ < end_ && y + kAhead >= top_ && y + kAhead < bottom_) ask_for(plane, row + kAhead * width_);
         const bool row_is_inside = y >= top_ && y < bottom_;
         if (row_is_inside && first_ == 0 && end_ == kWindow) return plane + row;
         std::fill_n(copy_, kWindow, outside_);
@@ -43,9 +43,9 @@ class WindowRows {
   private:
     /// Rows lie pages apart, so that no processor guesses where the next one is.
     static constexpr int kAhead = 12, kLine = 64 / sizeof(T);
-    void ask_for(const T* row) const {
-        for (int x = first_; x < end_; x += kLine) hwy::Prefetch(row + x);
-        hwy::Prefetch(row + end_ - 1);
+    void ask_for(const T* plane, std::ptrdiff_t row) const {
+        for (int x = first_; x < end_; x += kLine) hwy::Prefetch(plane + (row + x));
+        hwy::Prefetch(plane + (row + end_ - 1));
     }
 
     std::ptrdiff_t width_;

@@ -23,8 +23,8 @@ constexpr bool is_rim(int node) {
 /// An edge of a window: ordered as the metric orders edges.
 struct TileEdge {
     static constexpr int kNodeBits = 12;
-    std::uint32_t key = 0;  // height, node of the window, place in kForward
-    TileEdge() = default;
+    std::uint32_t key;     // height, node of the window, place in kForward
+    TileEdge() = default;  // unset: memory for millions is not to be touched twice
     TileEdge(std::uint32_t height, int node, int forward)
         : key(height << (kNodeBits + 2) | std::uint32_t(node) << 2 | std::uint32_t(forward)) {}
     explicit TileEdge(std::uint32_t k) : key(k) {}

@@ -100,7 +100,7 @@ struct TileProblem {
 template <class Lane>
 struct TileWindow;
 
-/// Memory of one thread. One of the two is made when it is needed.
+/// Memory of one thread. Each of the two is made when it is first needed.
 struct TileScratch {
     TileScratch();
     ~TileScratch();

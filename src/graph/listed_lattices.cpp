@@ -2,7 +2,7 @@
 
 #include <array>
 #include <cassert>
-#include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -11,25 +11,6 @@
 
 namespace dstylize {
 namespace {
-
-/// Where nodes lie: in the middles of their cells, odd rows `stagger` to the right and even ones to the left.
-std::vector<Vec2f> moved_positions(Extent e, float stagger, float jitter, Noise noise) {
-    assert(jitter >= 0 && jitter <= 1);
-    constexpr float kMiddle = 0.5f, kRim = 0.02f;
-    std::vector<Vec2f> out(e.count());
-    tbb::parallel_for(0, e.y, [&](int j) {
-        for (int i = 0; i < e.x; ++i) {
-            const auto random = noise.block(std::uint64_t(j) << 32 | std::uint64_t(i));
-            const auto moved = [&](int cell, std::uint32_t bits) {
-                return float(cell) + kMiddle + jitter * (Noise::unit_of(bits) - kMiddle);
-            };
-            const float x = moved(i, random[0]) + (j % 2 == 0 ? -stagger : stagger), y = moved(j, random[1]);
-            out[std::size_t(j) * std::size_t(e.x) + std::size_t(i)] = {std::clamp(x, kRim, float(e.x) - kRim),
-                                                                       std::clamp(y, kRim, float(e.y) - kRim)};
-        }
-    });
-    return out;
-}
 
 /// Joins every node to those at the offsets of its row, in the order of their numbers, unless something is between.
 template <class OffsetsOfRow>
@@ -59,25 +40,25 @@ Lattice moved_squares(Neighbourhood neighbourhood, float jitter, const Grid<std:
     for (const Step s : Lattice(passable.extent(), neighbourhood).steps()) offsets.push_back({s.dx, s.dy});
     const auto in_order = [](Offset a, Offset b) { return a.dy != b.dy ? a.dy < b.dy : a.dx < b.dx; };
     std::sort(offsets.begin(), offsets.end(), in_order);
-    return joined(moved_positions(passable.extent(), 0, jitter, noise), passable,
+    return joined(staggered_positions(passable.extent(), 0, jitter, noise), passable,
                   [&](int) { return std::span<const Offset>(offsets); });
 }
 
 Lattice hexagon_lattice(float jitter, const Grid<std::uint8_t>& passable, Noise noise, const Work& work) {
     work.check();
-    constexpr float kStagger = 0.25f;
     static constexpr std::array<Offset, 6> kOfEvenRows{{{-1, -1}, {0, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}}};
     static constexpr std::array<Offset, 6> kOfOddRows{{{0, -1}, {1, -1}, {-1, 0}, {1, 0}, {0, 1}, {1, 1}}};
-    return joined(moved_positions(passable.extent(), kStagger, jitter, noise), passable,
+    return joined(staggered_positions(passable.extent(), kStagger, jitter, noise), passable,
                   [](int row) { return std::span<const Offset>(row % 2 == 0 ? kOfEvenRows : kOfOddRows); });
 }
 
 Lattice cube_lattice(Extent slice, int depth, CubeNeighbourhood neighbourhood) {
     constexpr std::array<std::uint8_t, 4> kLength5{0, 5, 7, 9};  // by how many coordinates change
+    assert(depth >= 0 && std::int64_t{slice.y} * depth <= std::numeric_limits<int>::max());
     const int most = neighbourhood == CubeNeighbourhood::cube6 ? 1 : 3;
     const Extent sheet{slice.x, slice.y * depth};
     auto a = std::make_shared<Adjacency>();
-    a->position_lattice = moved_positions(sheet, 0, 0, Noise(0, Purpose::jitter));
+    a->position_lattice = staggered_positions(sheet, 0, 0, Noise(0, Purpose::jitter));
     list_edges(*a, [&](std::uint32_t n, const auto& visit) {
         const int i = int(n) % slice.x, j = int(n) / slice.x % slice.y, k = int(n) / slice.x / slice.y;
         for (int dk = -1; dk <= 1; ++dk)

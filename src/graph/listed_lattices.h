@@ -21,7 +21,7 @@ Lattice hexagon_lattice(float jitter, const Grid<std::uint8_t>& passable, Noise 
 /// To which nodes of a cube lattice an edge leads: over faces alone, or over edges and corners as well.
 enum class CubeNeighbourhood { cube6, cube26 };
 
-/// `depth` slices of nodes in space, one below the other in the lattice frame: node (i, j) of slice k is
+/// `depth` >= 0 slices of nodes in space, one below the other in the lattice frame: node (i, j) of slice k is
 /// (i, k * slice.y + j) there. Lengths are 5, 7 and 9.
 Lattice cube_lattice(Extent slice, int depth, CubeNeighbourhood neighbourhood);
 

@@ -35,15 +35,17 @@ struct PlanRequest {
     std::span<const Source> sources;  ///< a node named twice keeps its smallest start, then smallest owner
     Metric metric = Metric::max_sum;
     std::uint32_t blend_factor = 5000;  ///< k of `blend`: k * highest edge + sum
-    /// A plan for the same graph and metric, or null, and the sources that it was made from. Saves time and never
-    /// changes the answer: when sources come to those that there were, `sum` and the bottlenecks of `max-sum` only
-    /// fall, and only what falls is searched again. Of no use where a source has gone or starts later now.
+    /// A plan for the same graph and metric, without a turn penalty, or null, and the sources that it was made from.
+    /// Saves time and never changes the answer: when sources come to those that there were, `sum` and the bottlenecks
+    /// of `max-sum` only fall, and only what falls is searched again. Of no use where a source has gone or starts later
+    /// now.
     const Plan* earlier = nullptr;
     std::span<const Source> earlier_sources{};
     /// In 1/256: an edge costs (1 - cos) / 2 times this share of its cost more, for the angle to the edge before it.
     /// Irregular lattices alone, and best-first search (the reference planner): a node keeps the path that reached it
     /// first, though another that arrives in a better direction might lead on for less. So S(v) is the least
-    /// S(u) + c over the neighbours u, each with the parent that it has, and not the least of all paths.
+    /// S(u) + c over the neighbours u, each with the parent that it has, and not the least of all paths. The paths of
+    /// `lexicographic` are those of highest edges as ever.
     std::uint32_t turn_penalty = 0;
 };
 

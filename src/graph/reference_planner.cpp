@@ -83,8 +83,8 @@ class ReferencePlanner final : public Planner {
   public:
     Plan plan(const PlanRequest& request, const Work& work) const override {
         if (request.turn_penalty > 0 && !request.graph.lattice.adjacency())
-            throw Error(ErrorCode::bad_usage, "", "a turn penalty needs a lattice that favours no direction",
-                        "plan on a scattered lattice or on hexagons");
+            throw Error(ErrorCode::bad_usage, "", "a turn penalty needs a lattice other than unmoved squares",
+                        "take one whose edges are listed");
         switch (request.metric) {
             case Metric::sum: return BestFirstSearch(request, SumOrder{}).run(work);
             case Metric::max_sum: return BestFirstSearch(request, MaxSumOrder{}).run(work);

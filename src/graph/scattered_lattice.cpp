@@ -14,21 +14,6 @@ namespace {
 constexpr int kNearest = 12;
 using NearestNodes = std::vector<std::array<std::uint32_t, kNearest>>;  // unused places hold the node itself
 
-std::vector<Vec2f> scattered_positions(Extent e, Noise noise) {
-    std::vector<Vec2f> out(e.count());
-    tbb::parallel_for(0, e.y, [&](int j) {
-        for (int i = 0; i < e.x; ++i) {
-            const auto random = noise.block(std::uint64_t(j) << 32 | std::uint64_t(i));
-            const float x = float(i) + (j % 2 == 0 ? -0.25f : 0.25f) + Noise::unit_of(random[0]);
-            const float y = float(j) + Noise::unit_of(random[1]);
-            constexpr float kRim = 0.02f;
-            out[std::size_t(j) * std::size_t(e.x) + std::size_t(i)] = {std::clamp(x, kRim, float(e.x) - kRim),
-                                                                       std::clamp(y, kRim, float(e.y) - kRim)};
-        }
-    });
-    return out;
-}
-
 struct Near {
     float squared;
     std::uint32_t node;
@@ -91,7 +76,7 @@ std::vector<std::uint16_t> one_way_edges(const NearestNodes& nearest) {
 Lattice scattered_lattice(Extent e, const Grid<std::uint8_t>& passable, Noise noise, const Work& work) {
     work.check();
     auto a = std::make_shared<Adjacency>();
-    a->position_lattice = scattered_positions(e, noise);
+    a->position_lattice = staggered_positions(e, kStagger, 1, noise);
     const NearestNodes nearest = nearest_nodes(a->position_lattice, passable);
     const std::vector<std::uint16_t> one_way = one_way_edges(nearest);
     work.check();

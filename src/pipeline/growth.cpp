@@ -90,7 +90,7 @@ void release_intermediates(Fields& fields) {
 }
 
 /// Node weights of a round (METHOD: cost = (sum of weighted fields)^power, in integer levels).
-WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Dendrite& drawn,
+WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round& round, const Growth& growth,
                         const DirectionalCost& directional, const Work& work) {
     const StageParameters& stage = round.stage;
     WeightedLattice graph{base.lattice, {}, {}, true};
@@ -102,18 +102,18 @@ WeightedLattice weights(Fields& fields, const PreparedPicture& base, const Round
     }
     graph.weight.resize(cost.size());
     const auto top = float(stage.levels - 1);
-    const Adjacency* scattered = base.lattice.adjacency();
+    const Adjacency* listed = base.lattice.adjacency();
     each_index(cost.size(), [&](std::size_t n) {
-        if (!base.passable[n] || (scattered && !sample(base.passable, scattered->position_lattice[n]))) return;
-        float c = std::max(0.0f, scattered ? sample(cost, scattered->position_lattice[n]) : cost[n]);
+        if (!base.passable[n] || (listed && !sample(base.passable, listed->position_lattice[n]))) return;
+        float c = std::max(0.0f, listed ? sample(cost, listed->position_lattice[n]) : cost[n]);
         if (stage.cost_power != 1) c = std::pow(c, stage.cost_power);
         graph.weight[n] = NodeWeight(1 + std::lround(top * std::min(1.0f, c / stage.cost_max)));
     });
     if (stage.earlier_paths < 1)
-        for (const NodeId node : drawn.node) {
-            NodeWeight& weight = graph.weight[index(node)];
-            weight = NodeWeight(std::max(1l, std::lround(stage.earlier_paths * float(weight))));
-        }
+        each_index(cost.size(), [&](std::size_t n) {
+            if (!growth.contains(NodeId{std::uint32_t(n)})) return;
+            graph.weight[n] = NodeWeight(std::max(1l, std::lround(stage.earlier_paths * float(graph.weight[n]))));
+        });
     if (!directional.flow.empty() || !directional.step_factor.empty()) build_height_planes(graph, directional, work);
     return graph;
 }
@@ -241,9 +241,11 @@ struct EarlierRound {
 };
 
 /// Whether the round after this one may have the same weights: neither noise of its own nor a look at what is drawn.
+/// Labels that hold turns serve no other plan.
 bool may_be_planned_again(const Style& style, std::size_t stage, bool has_another_batch) {
     const StageParameters& now = style.stages[stage];
     if (now.noise_white > 0 || now.noise_smooth > 0 || looks_at_lack(now)) return false;
+    if (now.turn_penalty > 0 || now.earlier_paths < 1) return false;
     if (has_another_batch) return true;
     if (stage + 1 == style.stages.size()) return false;
     const StageParameters& next = style.stages[stage + 1];
@@ -256,8 +258,9 @@ Plan planned(const WeightedLattice& graph, std::span<const Source> sources, cons
     PlanRequest request{graph, sources, stage.metric, std::uint32_t(stage.blend_factor)};
     constexpr float kTurnUnit = 256;
     request.turn_penalty = std::uint32_t(std::lround(kTurnUnit * stage.turn_penalty));
-    if (earlier && earlier->metric == stage.metric && earlier->graph.weight == graph.weight &&
-        earlier->graph.height_plane == graph.height_plane && earlier->graph.symmetric == graph.symmetric) {
+    if (earlier && request.turn_penalty == 0 && earlier->metric == stage.metric &&
+        earlier->graph.weight == graph.weight && earlier->graph.height_plane == graph.height_plane &&
+        earlier->graph.symmetric == graph.symmetric) {
         request.earlier = &earlier->plan;
         request.earlier_sources = earlier->sources;
     }
@@ -305,7 +308,7 @@ Grown grow(PreparedPicture& base, const Style& style, const Controls& controls, 
                 transform(share, [](float v) { return std::clamp(2 * v, 0.0f, 1.0f); });
                 fields.replace("lacking", std::move(share));
             }
-            WeightedLattice graph = weights(fields, base, round, growth.dendrite(), directional, work);
+            WeightedLattice graph = weights(fields, base, round, growth, directional, work);
             if (s == 0 && batch == 0) {
                 std::uint16_t owner = 0;
                 for (const NodeId node : root_nodes(fields, graph, style.root, controls.roots, picture_px))

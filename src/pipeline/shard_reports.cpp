@@ -51,8 +51,10 @@ BatchPicture picture_of(const ordered_json& row) {
     if (state == "failed") {
         picture.problem = row.at("problem");
         picture.remedy = row.at("remedy");
-    } else {
+    } else if (state == "done" || state == "up to date") {
         picture.state = state == "done" ? State::done : State::up_to_date;
+    } else {
+        throw std::invalid_argument("no state that a finished shard leaves");
     }
     return picture;
 }

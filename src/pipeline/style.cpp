@@ -90,7 +90,7 @@ void StageParameters::visit(ParameterVisitor& v) {
     v.number({"noise_scale", "u", "wavelength of the smooth noise"}, noise_scale, 2, 400);
     v.number({"bare", "u", "way from the root on which starting a branch costs more"}, bare, 0, 2000);
     v.number(
-        {"turn_penalty", "", "not on regular lattices: how much dearer an edge is that turns back; bends cost part"},
+        {"turn_penalty", "", "not on unmoved squares: how much dearer an edge is that turns back; bends cost part"},
         turn_penalty, 0, 20);
     v.number({"earlier_paths", "",
               "what nodes on earlier paths cost, as a share: from the root, paths leave them at acos of it"},

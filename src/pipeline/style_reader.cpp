@@ -337,6 +337,11 @@ Style parse_style(std::string_view text, const std::string& origin, const std::v
     style.stages.clear();
     style.visit(top);
     style.stages = std::move(stages);
+    const bool turns = std::any_of(style.stages.begin(), style.stages.end(),
+                                   [](const StageParameters& stage) { return stage.turn_penalty > 0; });
+    if (turns && style.lattice.kind == LatticeParameters::Kind::regular && style.lattice.jitter == 0)
+        top.fail(tree.get("lattice"), "a turn_penalty means nothing on unmoved squares, with 8 directions to turn in",
+                 "set lattice.kind to hexagon or scattered, or lattice.jitter above 0");
     top.reject_unknown();
     return style;
 }

@@ -148,15 +148,33 @@ TEST(ListedLattices, ThePlannersAgreeBitForBit) {
     }
 }
 
+/// The same with one edge listed twice, both ways.
+Adjacency with_an_edge_twice(const Adjacency& a, std::uint32_t edge) {
+    Adjacency out{a.position_lattice, {0}, {}, {}};
+    std::uint32_t from = 0;
+    while (a.first[from + 1] <= edge) ++from;
+    for (std::uint32_t u = 0; u + 1 < a.first.size(); ++u) {
+        for (std::uint32_t e = a.first[u]; e < a.first[u + 1]; ++e)
+            for (int times = (u == from && a.to[e] == a.to[edge]) || (u == a.to[edge] && a.to[e] == from) ? 2 : 1;
+                 times > 0; --times) {
+                out.to.push_back(a.to[e]);
+                out.length5.push_back(a.length5[e]);
+            }
+        out.first.push_back(std::uint32_t(out.to.size()));
+    }
+    return out;
+}
+
 TEST(ListedLattices, OneWayEdgesAndListsInAnyOrderAreWalkedAsTheyAre) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
         Dice dice(seed);
         const Lattice whole = hexagon_lattice(0, open_ground({9, 8}), jitter(1), {});
         Adjacency a = *whole.adjacency();
         const std::uint32_t edge = dice.below(std::uint32_t(a.to.size())), node = dice.below(72);
-        switch (seed % 3) {
+        switch (seed % 4) {
             case 0: a.to[edge] = (a.to[edge] + 1 + dice.below(70)) % 72; break;
             case 1: a.length5[edge] = 9; break;
+            case 2: a = with_an_edge_twice(a, edge); break;
             default: std::reverse(a.to.begin() + a.first[node], a.to.begin() + a.first[node + 1]); break;
         }
         const Lattice lattice(whole.extent(), std::make_shared<Adjacency>(std::move(a)));
@@ -225,12 +243,30 @@ TEST(TurnPenalty, MakesPathsBendLess) {
     }
 }
 
+TEST(TurnPenalty, AllPlannersKnowIt) {
+    for (std::uint32_t seed = 100; seed < 120; ++seed) {
+        const test::RandomGraph g = test::random_graph_on(scattered({14, 11}), seed);
+        for (const Metric metric : test::kMetrics) {
+            PlanRequest request{g.graph, g.sources, metric};
+            request.turn_penalty = 700;
+            const Plan expected = reference_planner().plan(request, {});
+            test::expect_same_plan(bucket_planner().plan(request, {}), expected, std::to_string(seed));
+            test::expect_same_plan(tile_planner().plan(request, {}), expected, std::to_string(seed));
+        }
+    }
+}
+
 TEST(TurnPenalty, IsRefusedOnSquares) {
     WeightedLattice g{Lattice({5, 5}, Neighbourhood::square8), std::vector<NodeWeight>(25, 1), {}, true};
     const Source source[] = {{NodeId{0}, 0, 0}};
     PlanRequest request{g, source, Metric::sum};
     request.turn_penalty = 1;
-    EXPECT_THROW(tile_planner().plan(request, {}), Error);
+    try {
+        tile_planner().plan(request, {});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::bad_usage);
+    }
 }
 
 }  // namespace
