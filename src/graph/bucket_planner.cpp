@@ -128,12 +128,12 @@ constexpr int kListed = 0;  // in the place of a number of steps: an irregular l
 template <int kSteps, class Edges>
 Plan spanning_tree(const PlanRequest& request, const Work& work, std::uint32_t largest_height) {
     if constexpr (kSteps == kListed) {
-        ListedNames names(request.graph.lattice);
-        if (!names.has_all()) return reference_planner().plan(request, work);
-        return SpanningTree<ListedNames, Edges>(request, std::move(names), largest_height).run(work);
+        ListedEdgeIndex edge_index(request.graph.lattice);
+        if (!edge_index.has_all()) return reference_planner().plan(request, work);
+        return SpanningTree<ListedEdgeIndex, Edges>(request, std::move(edge_index), largest_height).run(work);
     } else {
-        const StepNames<kSteps> names(request.graph.lattice);
-        return SpanningTree<StepNames<kSteps>, Edges>(request, names, largest_height).run(work);
+        const StepEdgeIndex<kSteps> edge_index(request.graph.lattice);
+        return SpanningTree<StepEdgeIndex<kSteps>, Edges>(request, edge_index, largest_height).run(work);
     }
 }
 

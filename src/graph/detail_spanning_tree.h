@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "graph/detail_edge_names.h"
+#include "graph/detail_edge_index.h"
 #include "graph/detail_edge_queue.h"
 #include "graph/detail_heights.h"
 #include "graph/detail_sources.h"
@@ -14,13 +14,13 @@
 namespace dstylize {
 
 /// The `lexicographic` metric: the minimum spanning forest grown from all sources at once (Prim), by
-/// the order (height, smaller node index, larger node index) of edges, the latter two as `Names` has them.
-template <class Names, class Edges>
+/// the order (height, smaller node index, larger node index) of edges, the latter two as `EdgeIndex` has them.
+template <class EdgeIndex, class Edges>
 class SpanningTree {
   public:
-    SpanningTree(const PlanRequest& request, Names names, std::uint32_t largest_height)
+    SpanningTree(const PlanRequest& request, EdgeIndex edge_index, std::uint32_t largest_height)
         : edges_(request.graph),
-          names_(std::move(names)),
+          edge_index_(std::move(edge_index)),
           least_(request.graph.lattice.node_count(), kNoEdge),
           queue_(largest_height),
           plan_(least_.size()) {
@@ -35,16 +35,16 @@ class SpanningTree {
 
     Plan run(const Work& work) && {
         const auto is_stale = [this](std::uint64_t edge) {
-            return is_settled(names_.smaller_node(edge)) && is_settled(names_.larger_node(edge));
+            return is_settled(edge_index_.smaller_node(edge)) && is_settled(edge_index_.larger_node(edge));
         };
         for (std::size_t count = 0;; ++count) {
             if (count % 65536 == 0) work.check();
             const auto e = queue_.pop(is_stale);
             if (!e) return std::move(plan_).finished();
-            const std::uint32_t a = names_.smaller_node(e->index), b = names_.larger_node(e->index);
+            const std::uint32_t a = edge_index_.smaller_node(e->index), b = edge_index_.larger_node(e->index);
             const std::uint32_t from = is_settled(a) ? a : b, to = a + b - from;
             least_[to] = kSettled;
-            plan_.label[to].sum = plan_.label[from].sum + std::uint64_t(e->height) * names_.length5(e->index);
+            plan_.label[to].sum = plan_.label[from].sum + std::uint64_t(e->height) * edge_index_.length5(e->index);
             plan_.parent[to] = NodeId{from};
             plan_.owner[to] = plan_.owner[from];
             offer_edges_of(to);
@@ -58,7 +58,7 @@ class SpanningTree {
     /// Of the edges that lead to a node only its least can come to be in the tree.
     void offer_edges_of(std::uint32_t u) {
         edges_(u, [&](std::uint32_t v, std::uint32_t height, int step) {
-            const std::uint64_t edge = names_.of(u, v, step);
+            const std::uint64_t edge = edge_index_.of(u, v, step);
             const std::uint64_t order = std::uint64_t{height} << 40 | edge;
             if (order >= least_[v]) return;
             least_[v] = order;
@@ -67,7 +67,7 @@ class SpanningTree {
     }
 
     const Edges edges_;
-    const Names names_;
+    const EdgeIndex edge_index_;
     std::vector<std::uint64_t> least_;  // order of the least edge met so far
     EdgeQueue queue_;
     WidePlan plan_;

@@ -26,19 +26,16 @@ class TreeJoiner {
     /// Trees by number: each points to itself or, on the way to its root, to another.
     void begin(std::span<const Tree> root) {
         grown_.assign(root.begin(), root.end());
-        joined_ = grown_;
-        is_frozen_.assign(root.size(), false);
+        join_as_grown();
     }
     void begin(std::vector<Tree>&& root) {
         grown_ = std::move(root);
-        joined_ = grown_;
-        is_frozen_.assign(grown_.size(), false);
+        join_as_grown();
     }
     void begin(std::size_t trees) {
         grown_.resize(trees);
         std::iota(grown_.begin(), grown_.end(), Tree{0});
-        joined_ = grown_;
-        is_frozen_.assign(trees, false);
+        join_as_grown();
     }
 
     /// Trees that count as one though no edge joins them.
@@ -62,6 +59,11 @@ class TreeJoiner {
     Tree root(Tree t) { return root_of(grown_, t); }
 
   private:
+    void join_as_grown() {
+        joined_ = grown_;
+        is_frozen_.assign(grown_.size(), false);
+    }
+
     /// Ways to a root are halved by the way.
     static Tree root_of(std::vector<Tree>& parent, Tree n) {
         while (parent[n] != n) n = parent[n] = parent[parent[n]];

@@ -8,14 +8,14 @@
 
 namespace dstylize {
 
-// An edge's name, whichever way it is walked: its smaller node and the rank of the larger one among those that
-// edges lead to from there. Names are ordered as (smaller node, larger node) is, and fit into 40 bits.
+// An edge's index, whichever way it is walked: its smaller node and the rank of the larger one among those that
+// edges lead to from there. Indices are ordered as (smaller node, larger node) is, and fit into 40 bits.
 
-/// The names on a regular lattice of so many steps.
+/// On a regular lattice of so many steps.
 template <int kSteps>
-class StepNames {
+class StepEdgeIndex {
   public:
-    explicit StepNames(const Lattice& lattice) {
+    explicit StepEdgeIndex(const Lattice& lattice) {
         const auto steps = lattice.steps();
         const auto before = [](Step a, Step b) { return a.dy != b.dy ? a.dy < b.dy : a.dx < b.dx; };
         const auto is_forward = [&](Step s) { return before({0, 0, 0}, s); };
@@ -29,9 +29,9 @@ class StepNames {
     std::uint64_t of(std::uint32_t from, std::uint32_t to, int step) const {
         return std::uint64_t(backward_[std::size_t(step)] ? to : from) * kRanks + rank_[std::size_t(step)];
     }
-    std::uint32_t smaller_node(std::uint64_t name) const { return std::uint32_t(name / kRanks); }
-    std::uint32_t larger_node(std::uint64_t name) const { return smaller_node(name) + forward_[name % kRanks].offset; }
-    std::uint32_t length5(std::uint64_t name) const { return forward_[name % kRanks].length5; }
+    std::uint32_t smaller_node(std::uint64_t edge) const { return std::uint32_t(edge / kRanks); }
+    std::uint32_t larger_node(std::uint64_t edge) const { return smaller_node(edge) + forward_[edge % kRanks].offset; }
+    std::uint32_t length5(std::uint64_t edge) const { return forward_[edge % kRanks].length5; }
 
   private:
     static constexpr std::uint32_t kRanks = 8;  // at least kSteps / 2
@@ -44,23 +44,23 @@ class StepNames {
     std::array<Forward, kRanks> forward_{};
 };
 
-/// The names on an irregular lattice, a byte for each of its edges.
-class ListedNames {
+/// On an irregular lattice; takes a byte for each of its edges.
+class ListedEdgeIndex {
   public:
-    explicit ListedNames(const Lattice& lattice)
+    explicit ListedEdgeIndex(const Lattice& lattice)
         : adjacency_(*lattice.adjacency()), rank_(adjacency_.to.size()), has_all_(find_ranks()) {}
     /// False where some edge has no like back, as long, or a list is out of order, or a node has very many edges.
     bool has_all() const { return has_all_; }
     std::uint64_t of(std::uint32_t from, std::uint32_t to, int edge) const {
         return std::uint64_t(std::min(from, to)) * kRanks + rank_[std::size_t(edge)];
     }
-    std::uint32_t smaller_node(std::uint64_t name) const { return std::uint32_t(name / kRanks); }
-    std::uint32_t larger_node(std::uint64_t name) const { return adjacency_.to[place(name)]; }
-    std::uint32_t length5(std::uint64_t name) const { return adjacency_.length5[place(name)]; }
+    std::uint32_t smaller_node(std::uint64_t edge) const { return std::uint32_t(edge / kRanks); }
+    std::uint32_t larger_node(std::uint64_t edge) const { return adjacency_.to[place(edge)]; }
+    std::uint32_t length5(std::uint64_t edge) const { return adjacency_.length5[place(edge)]; }
 
   private:
     static constexpr std::uint32_t kRanks = 256;
-    std::size_t place(std::uint64_t name) const { return adjacency_.first[name / kRanks] + name % kRanks; }
+    std::size_t place(std::uint64_t edge) const { return adjacency_.first[edge / kRanks] + edge % kRanks; }
 
     bool find_ranks() {
         const auto& [position, first, to, length5] = adjacency_;
